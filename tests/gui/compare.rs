@@ -71,7 +71,7 @@ fn vertices_glide_from_step_to_step() {
 #[test]
 fn who_wants_no_motion_gets_none() {
     let mut window = two_steps();
-    window.menu(&["View", "Animate changes of step"]);
+    window.menu(&["View", "Show", "Animate changes of step"]);
     window.key_now(Key::ArrowLeft);
     assert!(!step_until_easing(&mut window));
     assert_eq!(window.editor().session.timeline().shown(), Some(0));

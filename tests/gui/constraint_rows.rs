@@ -186,6 +186,6 @@ fn the_selected_constraint_is_magnified_in_both_panes() {
     window.editor_mut().selection.select([VertexId::new(40)]);
     window.settle();
     assert!(named(&window, "Magnifier: v40 on the mesh") && named(&window, "Magnifier: the target of v40"));
-    window.menu(&["View", "Magnifier"]);
+    window.menu(&["View", "Show", "Magnifier"]);
     assert!(!named(&window, "Magnifier: v40 on the mesh"));
 }

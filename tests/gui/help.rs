@@ -109,7 +109,10 @@ fn the_palette_has_every_entry_of_every_menu_and_every_key() {
     for (menu, parts) in [
         ("File", &["Recent", "Examples", "Export", "Size in files"][..]),
         ("Edit", &["Tools", "Select", "Seams"]),
-        ("View", &["Shading of the mesh", "Shading of the embedding", "Checker and pixels", "Side panels", "Theme"]),
+        (
+            "View",
+            &["Shading of the mesh", "Shading of the embedding", "Checker and pixels", "Show", "Side panels", "Theme"],
+        ),
         ("Solve", &[]),
         ("Help", &[]),
     ] {

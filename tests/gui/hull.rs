@@ -49,7 +49,7 @@ fn h_shows_the_stages_and_hides_them_again() {
     }
     window.key(Key::H);
     assert!(!window.has_button("Pockets"));
-    window.menu(&["View", "Hull and pockets"]);
+    window.menu(&["View", "Show", "Hull and pockets"]);
     assert!(window.has_button("Pockets"));
     window.click("Hull");
     assert!(!window.has_button("Pockets"));

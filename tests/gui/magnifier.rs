@@ -72,9 +72,9 @@ fn a_click_goes_to_its_defect() {
 #[test]
 fn it_can_be_switched_off() {
     let mut window = folded();
-    window.menu(&["View", "Magnifier"]);
+    window.menu(&["View", "Show", "Magnifier"]);
     assert_eq!(inset(&window), None);
-    window.menu(&["View", "Magnifier"]);
+    window.menu(&["View", "Show", "Magnifier"]);
     assert!(inset(&window).is_some());
 }
 
@@ -200,7 +200,7 @@ fn its_cross_closes_it_and_the_menu_opens_it_again() {
     let name = inset(&window).expect("it shows");
     window.click(&format!("Close: {name}"));
     assert_eq!(inset(&window), None);
-    window.menu(&["View", "Magnifier"]);
+    window.menu(&["View", "Show", "Magnifier"]);
     assert!(inset(&window).is_some());
 }
 

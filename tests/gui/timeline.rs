@@ -173,7 +173,7 @@ fn curves_can_be_put_away_one_by_one_and_all_together() {
     window.click("Hide the curves");
     assert!(!has_curve(&window, OTHER));
     assert!(window.plane_view().height() > before + 100.0, "the panes have the room");
-    window.menu(&["View", "Curves of the steps"]);
+    window.menu(&["View", "Show", "Curves of the steps"]);
     assert!(has_curve(&window, OTHER));
 }
 

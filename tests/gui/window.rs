@@ -1,5 +1,7 @@
 //! Window as a whole: opening, names, and layout at all sizes.
 
+use std::collections::BTreeSet;
+
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
@@ -11,6 +13,7 @@ use freebound_core::pipeline::Target;
 use freebound_core::problem::{Method, NamedOption as _};
 use glam::DVec2;
 
+use crate::charts::with_sheets;
 use crate::harness::{MESH_VIEW, PLANE_VIEW, SIZE, Window, sheet};
 
 #[test]
@@ -147,7 +150,7 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
 
 #[test]
 fn each_menu_has_its_entries() {
-    let menus: [(&[&str], &[&str]); 11] = [
+    let menus: [(&[&str], &[&str]); 12] = [
         (
             &["File"],
             &["Open…", "Save project", "Save project as…", "Open picture…", "Import constraints…", "Export", "Quit"],
@@ -169,18 +172,9 @@ fn each_menu_has_its_entries() {
         ),
         (
             &["View"],
-            &[
-                "Wireframe",
-                "Hull and pockets",
-                "Magnifier",
-                "Animate changes of step",
-                "Panels",
-                "Frame the selection, or all",
-                "Go to…",
-                "Next defect",
-                "Previous defect",
-            ],
+            &["Wireframe", "Panels", "Frame the selection, or all", "Go to…", "Next defect", "Previous defect"],
         ),
+        (&["View", "Show"], &["Hull and pockets", "Magnifier", "Curves of the steps", "Animate changes of step"]),
         (
             &["View", "Shading of the mesh"],
             &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move"],
@@ -390,6 +384,48 @@ fn quit_closes_the_window() {
 }
 
 #[test]
+fn every_menu_fits_into_the_smallest_window_with_charts_on_the_page() {
+    let mut window = with_sheets();
+    let size = SIZES[0];
+    window.harness.set_size(size);
+    window.settle();
+    let usual: BTreeSet<String> = window.controls().into_iter().map(|(_, name, _)| name).collect();
+    let parts: [(&str, &[&str]); 4] = [
+        ("File", &["Recent", "Examples", "Export", "Size in files"]),
+        ("Edit", &["Tools", "Select", "Seams", "Arrange charts"]),
+        (
+            "View",
+            &[
+                "Shading of the mesh",
+                "Shading of the embedding",
+                "Checker and pixels",
+                "Show",
+                "Side panels",
+                "Charts",
+                "Theme",
+            ],
+        ),
+        ("Solve", &[]),
+    ];
+    for (menu, parts) in parts {
+        for part in std::iter::once(None).chain(parts.iter().map(Some)) {
+            window.click(menu);
+            if let Some(part) = part {
+                window.click(part);
+            }
+            let opened = window.controls().into_iter().filter(|(_, name, _)| !usual.contains(name));
+            let beyond: Vec<String> = opened
+                .filter(|(.., rect)| rect.bottom() > size.y || rect.right() > size.x)
+                .map(|(_, name, _)| name)
+                .collect();
+            assert!(beyond.is_empty(), "{menu} {part:?}: {beyond:?}");
+            window.key(Key::Escape);
+            window.key(Key::Escape);
+        }
+    }
+}
+
+#[test]
 fn switches_of_the_view_menu_say_whether_they_are_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     let is_on = |window: &Window, name: &str| {
@@ -397,8 +433,12 @@ fn switches_of_the_view_menu_say_whether_they_are_on() {
         node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
     };
     window.click("View");
-    assert!(!is_on(&window, "Wireframe") && is_on(&window, "Magnifier"));
-    window.click("Wireframe");
+    assert!(!is_on(&window, "Wireframe"));
+    window.click("Show");
+    assert!(is_on(&window, "Magnifier"));
+    window.key(Key::Escape);
+    window.key(Key::Escape);
+    window.menu(&["View", "Wireframe"]);
     window.click("View");
     assert!(is_on(&window, "Wireframe"));
 }

@@ -134,6 +134,9 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         menu.separator();
         menu.item(when(has_seams, NO_SEAMS), "Clear seams", Request::ClearSeams);
     });
+    if session.charts().is_some() {
+        page_menu(menu);
+    }
     menu.separator();
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
     menu.item(
@@ -173,9 +176,12 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
     }
     checker_menu(menu);
     menu.switch(editor.pane_shading.wireframe, "Wireframe", Request::ToggleWireframe);
-    menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
-    menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.switch(editor.pane_shading.glides, "Animate changes of step", Request::ToggleEase);
+    menu.part("Show", |menu| {
+        menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
+        menu.switch(editor.pane_shading.magnifier, "Magnifier", Request::ToggleMagnifier);
+        menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
+        menu.switch(editor.pane_shading.glides, "Animate changes of step", Request::ToggleEase);
+    });
     menu.part("Side panels", |menu| {
         menu.switch(editor.layout.panels_shown(), "Show the panels", Request::TogglePanels);
         menu.separator();
@@ -183,7 +189,6 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
             menu.choice(editor.layout.shows(tab), tab.title(), Request::ShowTab(tab));
         }
     });
-    menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.separator();
     menu.item(ALWAYS, "Frame the selection, or all", Request::Frame);
     menu.item(ALWAYS, "Go to…", Request::AskGoTo);
@@ -191,15 +196,13 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
     menu.item(when(has_defects, "There are no defects"), "Next defect", Request::StepDefect(1));
     menu.item(when(has_defects, "There are no defects"), "Previous defect", Request::StepDefect(-1));
     if editor.session.charts().is_some() {
-        menu.item(ALWAYS, "Next chart", Request::StepChart(1));
-        menu.item(ALWAYS, "Previous chart", Request::StepChart(-1));
-        let states: Vec<LockState> =
-            editor.charts_to_work_on().into_iter().map(|chart| editor.session.lock_state(chart)).collect();
-        let can_lock = states.contains(&LockState::Open);
-        let words = if can_lock || states.is_empty() { "Lock the charts" } else { "Unlock the charts" };
-        menu.item(when(can_lock || states.contains(&LockState::Locked), NO_CHART), words, Request::ToggleLock);
-        menu.switch(editor.shows_page(), "All charts on the page", PageRequest::Toggle.into());
-        page_menu(menu);
+        let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
+        menu.part("Charts", |menu| {
+            menu.switch(editor.shows_page(), "All charts on the page", PageRequest::Toggle.into());
+            menu.item(when(has_selected, NO_CHART), "Show one alone", PageRequest::Open(None));
+            menu.item(ALWAYS, "Next chart", Request::StepChart(1));
+            menu.item(ALWAYS, "Previous chart", Request::StepChart(-1));
+        });
     }
     menu.separator();
     menu.part("Theme", |menu| {
@@ -236,9 +239,12 @@ fn page_menu(menu: &mut MenuBuilder<'_>) {
     let editor = menu.editor;
     let can_move = editor.shows_page() && !editor.movable_charts().is_empty();
     let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
-    menu.part("Charts", |menu| {
-        menu.item(when(has_selected, NO_CHART), "Show one alone", PageRequest::Open(None));
-        menu.separator();
+    let states: Vec<LockState> =
+        editor.charts_to_work_on().into_iter().map(|chart| editor.session.lock_state(chart)).collect();
+    let can_lock = states.contains(&LockState::Open);
+    let can_change_lock = can_lock || states.contains(&LockState::Locked);
+    let words = if can_lock || states.is_empty() { "Lock the charts" } else { "Unlock the charts" };
+    menu.part("Arrange charts", |menu| {
         for kind in GestureKind::ALL {
             menu.item(when(can_move, NO_CHART), kind.title(), PageRequest::Begin(kind));
         }
@@ -247,6 +253,7 @@ fn page_menu(menu: &mut MenuBuilder<'_>) {
         menu.separator();
         menu.item(when(has_selected, NO_CHART), "Stack", PageRequest::Stack);
         menu.item(when(has_selected, NO_CHART), "Unstack", PageRequest::Unstack);
+        menu.item(when(can_change_lock, NO_CHART), words, Request::ToggleLock);
         menu.item(when(editor.shows_page(), NO_PAGE), "Pack the selected charts, or all", PageRequest::Pack);
     });
 }

@@ -66,6 +66,12 @@ impl Group {
     }
 }
 
+/// Least width of the column of keys, points.
+const KEYS_WIDTH: f32 = 96.0;
+
+/// Least width of the column of words, points.
+const WORDS_WIDTH: f32 = 340.0;
+
 /// Shows the list if it is open.
 pub(super) fn keys_window(context: &egui::Context, editor: &mut Editor) {
     if !editor.layout.keys_shown {
@@ -207,8 +213,15 @@ fn row(ui: &mut egui::Ui, place: usize, list: &mut KeyList, map: &KeyMap) {
     let written = shortcut_words(ui.ctx(), map.shortcut(place));
     let keys = egui::RichText::new(&written).monospace();
     let accent = theme_of(ui).accent;
-    ui.label(if map.is_changed(place) { keys.color(accent).strong() } else { keys });
-    ui.label(about);
+    // The columns of all groups lie below each other.
+    ui.horizontal(|ui| {
+        ui.set_min_width(KEYS_WIDTH);
+        ui.label(if map.is_changed(place) { keys.color(accent).strong() } else { keys });
+    });
+    ui.horizontal(|ui| {
+        ui.set_min_width(WORDS_WIDTH);
+        ui.label(about);
+    });
     if is_listening {
         remark(ui, "Press the new keys; Esc cancels");
     } else if is_free(place) {

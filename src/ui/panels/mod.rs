@@ -65,7 +65,8 @@ mod vertex_panel;
 pub(super) mod welcome;
 mod welding;
 
-use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{self, Align, FontSelection, RichText, Role, Sense, Vec2, WidgetInfo};
 
 use super::theme::{HOVERED, SELECTED};
 use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
@@ -100,9 +101,9 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let charts = editor.session.charts().map(|charts| charts.count());
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
-        // Narrow buttons, so that the fifth tab fits into the row.
-        ui.spacing_mut().button_padding.x = 4.0;
+        // Narrow buttons and small numbers, so that the fifth tab fits into the row.
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.spacing_mut().button_padding.x = 3.0;
         for tab in Tab::ALL {
             let count = match tab {
                 Tab::Charts => charts.unwrap_or_default(),
@@ -110,7 +111,14 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
                 Tab::Defects => editor.defect_count(),
                 Tab::Method | Tab::Vertex => 0,
             };
-            let words = if count > 0 { format!("{} {count}", tab.title()) } else { tab.title().to_owned() };
+            let mut words = LayoutJob::default();
+            let mut append = |text: RichText| {
+                text.append_to(&mut words, ui.style(), FontSelection::Default, Align::Center);
+            };
+            append(RichText::new(tab.title()));
+            if count > 0 {
+                append(RichText::new(format!(" {count}")).small());
+            }
             ui.selectable_label(editor.layout.tab() == tab, words).asks(Request::ShowTab(tab), requests);
         }
     });
