@@ -19,7 +19,7 @@ use super::solving::Solving;
 use super::target_checks::TargetChecks;
 use super::unwrapping::Unwrapping;
 use super::v_axis::TurnedV;
-use super::{Action, Busy, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
+use super::{Action, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
 
 /// Open document and the work on it.
 pub struct Session {
@@ -274,7 +274,7 @@ impl Session {
 
     fn cancel(&mut self) {
         // Other work is stopped alone. Files are still written then.
-        if self.busy() == Some(Busy::Saving) {
+        if self.is_only_saving() {
             self.files.stop_writing();
         }
         self.files.cancel_loading();

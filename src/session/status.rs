@@ -86,6 +86,11 @@ impl Session {
         }
     }
 
+    /// True if files are being written, and no other work is waited for.
+    pub(super) fn is_only_saving(&self) -> bool {
+        self.busy() == Some(Busy::Saving)
+    }
+
     /// True if the shown outcome belongs to the current document.
     pub fn is_current(&self) -> bool {
         let is_solved = |outcome: &Arc<Outcome>| outcome.problem.has_steps_of(&self.document.problem());

@@ -91,7 +91,7 @@ fn curves_are_written_as_a_table_with_all_digits_and_as_figures() {
 #[test]
 fn pictures_of_all_steps_are_numbered_and_have_one_camera() {
     let mut window = with_steps();
-    window.menu(&["File", "Export", "Pictures of all steps…"]);
+    window.menu(&["File", "Export", "Steps and curves", "Pictures of all steps…"]);
     window.fill_in(Role::TextInput, "Name", "run.svg");
     window.click("Export");
     let count = window.editor().session.timeline().records().len();

@@ -33,7 +33,7 @@ fn list(text: &str, title: &str) -> Vec<usize> {
 
 /// Positions that the written system gives, by vertex.
 fn solved(window: &mut Window) -> (Vec<usize>, Vec<[f64; 2]>) {
-    window.menu(&["File", "Export", "Linear system of this step…"]);
+    window.menu(&["File", "Export", "Steps and curves", "Linear system of this step…"]);
     window.click("Export");
     window.settle();
     let read = |name: &str| std::fs::read_to_string(window.path(name)).unwrap();
@@ -107,7 +107,7 @@ fn a_step_without_a_linear_system_says_so_with_a_remedy() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.editor_mut().session.handle(Action::SetSettings(Settings::new(Method::Slim, Family::Conformal)));
     window.settle();
-    window.menu(&["File", "Export", "Linear system of this step…"]);
+    window.menu(&["File", "Export", "Steps and curves", "Linear system of this step…"]);
     window.click("Export");
     assert!(!window.path("sheet-matrix.mtx").exists());
     let message = &window.editor().session.messages()[0];

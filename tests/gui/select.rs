@@ -1,12 +1,12 @@
 //! Selection of vertices and charts by the mesh, the map and the present selection.
 
 use freebound::session::Action;
-use freebound::ui::{Request, SelectBy};
+use freebound::ui::{PageRequest, Request, SelectBy};
 use freebound_core::mesh::VertexId;
 use freebound_testkit::shaped;
 use glam::DVec3;
 
-use crate::charts::with_sheets;
+use crate::charts::{until_laid_out, with_sheets};
 use crate::harness::{Window, sheet};
 
 fn selected(window: &Window) -> usize {
@@ -50,14 +50,20 @@ fn charts_of_the_page_are_selected_by_their_pins_and_their_distortion() {
     window.menu(&["Edit", "Select", "Select all"]);
     let count = of_page(&window);
     assert!(count > 1, "{count}");
-    window.editor_mut().handle(Request::SelectBy(SelectBy::Pins));
-    assert_eq!(of_page(&window), 0);
-    window.editor_mut().handle(Request::SelectBy(SelectBy::Distorted));
-    assert!(of_page(&window) < count);
-    // Vertices cannot grow on the page.
-    window.editor_mut().handle(Request::SelectBy(SelectBy::All));
-    window.editor_mut().handle(Request::SelectBy(SelectBy::Grow));
-    assert_eq!(of_page(&window), count);
+    // No chart has pins, none is distorted, and vertices cannot grow on the page.
+    for by in [SelectBy::Pins, SelectBy::Distorted, SelectBy::Grow] {
+        assert!(!window.editor().can_select_by(by), "{by:?}");
+        window.editor_mut().handle(Request::SelectBy(by));
+        assert_eq!(of_page(&window), count, "{by:?}");
+    }
+    window.editor_mut().session.handle(Action::ShowChart(1));
+    window.settle();
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0), VertexId::new(5)]));
+    until_laid_out(&mut window);
+    window.editor_mut().handle(PageRequest::Show(true).into());
+    until_laid_out(&mut window);
+    window.menu(&["Edit", "Select", "Select the pins"]);
+    assert_eq!(window.editor().plane.page.selected().iter().copied().collect::<Vec<_>>(), [1]);
 }
 
 #[test]

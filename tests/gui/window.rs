@@ -258,7 +258,8 @@ fn the_list_of_keys_has_them_all() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.menu(&["Help", "All keys"]);
     for binding in BINDINGS {
-        let keys = window.harness.ctx.format_shortcut(&binding.shortcut);
+        let named = window.harness.ctx.format_shortcut(&binding.shortcut);
+        let keys = named.replace("OpenBracket", "[").replace("CloseBracket", "]");
         // Entries that are scrolled out of sight exist nevertheless.
         for words in [binding.about, &keys] {
             assert!(window.harness.query_all_by_label(words).next().is_some(), "{words}");

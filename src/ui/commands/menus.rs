@@ -76,14 +76,19 @@ fn file_menu(menu: &mut MenuBuilder<'_>) {
     let has_pins = !editor.session.document().targets.is_empty();
     menu.item(when(has_pins, NO_PINS), "Export constraints…", Request::Ask(FileDialogKind::ExportConstraints));
     menu.separator();
+    let has_map = editor.session.outcome().is_some();
     menu.part("Export", |menu| {
-        for (kind, words, about) in EXPORTS {
-            menu.explained(when(editor.session.outcome().is_some(), NO_MAP), [words, about], Request::Ask(kind));
+        for (kind, words, about) in EXPORTS.into_iter().filter(|(kind, ..)| !kind.is_of_steps()) {
+            menu.explained(when(has_map, NO_MAP), [words, about], Request::Ask(kind));
         }
-        let has_map = editor.session.outcome().is_some();
         let baked = Request::ToggleOptions(ExportOptions::Baked);
         menu.explained(when(has_map && editor.session.can_bake(), NO_LAYOUT_PICTURE), BAKED, baked);
         menu.explained(when(has_map, NO_MAP), PATTERN, Request::ToggleOptions(ExportOptions::Pattern));
+        menu.part("Steps and curves", |menu| {
+            for (kind, words, about) in EXPORTS.into_iter().filter(|(kind, ..)| kind.is_of_steps()) {
+                menu.explained(when(has_map, NO_MAP), [words, about], Request::Ask(kind));
+            }
+        });
         menu.separator();
         menu.explained(when(has_model, NO_MESH), COPY_COMMAND, Request::CopyCommandLine);
     });

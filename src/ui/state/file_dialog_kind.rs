@@ -162,6 +162,11 @@ impl FileDialogKind {
         DialogForm { title, files, extensions, ending }
     }
 
+    /// True if the dialog exports steps, or curves of their numbers.
+    pub(in crate::ui) const fn is_of_steps(self) -> bool {
+        matches!(self, Self::Curves(_) | Self::StepPictures | Self::LinearSystem)
+    }
+
     /// True if the dialog asks for an existing file.
     pub(in crate::ui) const fn is_reading(self) -> bool {
         matches!(
