@@ -67,7 +67,7 @@ fn the_scale_of_each_curve_is_remembered_and_values_without_a_place_are_marked()
 fn curves_are_written_as_a_table_with_all_digits_and_as_figures() {
     let mut window = with_steps();
     for entry in ["Curves as a table…", "Curves as a drawing…", "Curves as a document…"] {
-        window.menu(&["File", "Export", entry]);
+        window.menu(&["File", "Export", "Steps and curves", entry]);
         window.click("Export");
     }
     let table = std::fs::read_to_string(window.path("sheet-curves.csv")).unwrap();

@@ -35,7 +35,9 @@ fn difference(file: &MeshFile, scale: f64) -> f64 {
 #[test]
 fn a_flat_mesh_has_the_polygons_and_the_area_of_the_surface_and_lies_like_its_layout() {
     let program = Program::new();
-    for (name, mesh) in [("ball", PolygonMesh::from(&ball(24, 15))), ("sheet", quad_sheet(7, 5, 0.0, &mut Random(3)))] {
+    let sheet = quad_sheet(7, 5, 0.3, &mut Random(3));
+    // The area of a bent quad depends on its diagonal.
+    for (name, mesh, tolerance) in [("ball", PolygonMesh::from(&ball(24, 15)), 1e-4), ("sheet", sheet, 0.05)] {
         program.write("in.obj", &obj_text(&mesh));
         let arguments = ["unwrap", "in.obj", "-o", "uv.obj", "--flat-mesh"];
         for flat in ["flat.obj", "flat.ply", "flat.glb"] {
@@ -45,7 +47,7 @@ fn a_flat_mesh_has_the_polygons_and_the_area_of_the_surface_and_lies_like_its_la
             assert_eq!(triangles(&flat), triangles(&uv), "{name}");
             assert!(flat.polygons.positions.iter().all(|p| p.z == 0.0), "{name}");
             let (before, after) = (area(&mesh), area(&flat.polygons));
-            assert!((before - after).abs() < 1e-4 * before, "{name}: {before} {after}");
+            assert!((before - after).abs() < tolerance * before, "{name}: {before} {after}");
             let sizes = |file: &MeshFile| {
                 let longest = file.polygons.positions.iter().map(|p| p.truncate().max_element()).fold(0.0, f64::max);
                 let coordinates = &file.texture.as_ref().expect("a layout").coordinates;
