@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-9;
 /// Largest number of points that decide whether another surface is inside out.
 const JUDGES: usize = 4096;
 
-/// Share of the area, agreeing taken from disagreeing, from which a surface counts as inside out.
+/// Excess of the area that disagrees over the area that agrees, relative to both, above which a surface is inside out.
 const CLEAR: f64 = 0.5;
 
 /// Search for nearest points of a surface.
