@@ -46,7 +46,7 @@ class FREEBOUND_OT_copy_layout(Run, bpy.types.Operator):
 
     def _gather(self, context):
         active = context.active_object
-        source = meshes.gather_objects(context, [active], f"{active.name} has no UV map", self.is_in_world, True)
+        source = meshes.gather_objects(context, [active], f"there is no UV map on {active.name}: unwrap it first", self.is_in_world, True)
         self._source = source
         return meshes.gather_objects(context, _targets(context), "the selected objects have no faces", self.is_in_world)
 

@@ -239,7 +239,8 @@ def _gathered(
     is_in_world=True,
 ):
     """Faces of each mesh that ``chosen`` finds, and all others. ``missing`` tells what to do if it finds none."""
-    objects = objects_of(context) if objects is None else objects
+    is_selection = objects is None
+    objects = objects_of(context) if is_selection else objects
     with object_mode(context):
         positions, firsts, count = [], {}, 0
         for item in objects:
@@ -252,7 +253,7 @@ def _gathered(
         placed_of = {item: mask & _has_place(item.data) if needs_place else mask for item, mask in chosen_of.items()}
         own = _joined(firsts, placed_of, needs_uv)
         if own is None:
-            has_faces = any(mask.any() for mask in chosen_of.values())
+            has_faces = is_selection and any(mask.any() for mask in chosen_of.values())
             raise Nothing("the selected faces have no place in a UV map: unwrap them first" if has_faces else missing)
         vertices = np.concatenate(positions)
         for part in own.parts:

@@ -1340,6 +1340,7 @@ def copy_layout(source, *targets, **options):
 
 
 def ball(segments, rings, at=(0, 0, 0), size=1.0):
+    in_object_mode()
     item = primitive("uv_sphere", segments=segments, ring_count=rings, location=at)
     item.data.transform(item.matrix_world.Scale(size, 4))
     return item
@@ -1350,7 +1351,7 @@ def test_a_layout_is_copied_to_other_levels_of_detail_with_its_seams():
     edit(fine)
     assert bpy.ops.uv.freebound_unwrap() == {"FINISHED"}
     # Their own coordinates are compared, wherever the objects stand.
-    coarse, rough = ball(24, 14, at=(4, 0, 0)), ball(16, 9, at=(8, 0, 0))
+    coarse, rough = ball(32, 20, at=(4, 0, 0)), ball(20, 12, at=(8, 0, 0))
     coarse.data.uv_layers.remove(coarse.data.uv_layers.active)
     assert copy_layout(fine, coarse, rough) == {"FINISHED"}
     for item in (coarse, rough):
@@ -1385,7 +1386,7 @@ def test_an_object_that_lies_apart_is_named_and_fitted_on_request():
 
 def test_a_copy_needs_a_layout_and_another_object():
     bare, other = mesh_of(*wavy(), name="bare"), mesh_of(*wavy(), name="other")
-    with pytest.raises(RuntimeError, match="bare has no UV map"):
+    with pytest.raises(RuntimeError, match="no UV map on bare"):
         copy_layout(bare, other)
     assert not other.data.uv_layers
     bpy.ops.object.select_all(action="DESELECT")

@@ -16,6 +16,7 @@ use std::collections::{BinaryHeap, HashSet};
 use glam::{DVec2, DVec3};
 
 use super::{NO_COORDINATE, SurfaceSearch};
+use crate::geom::double_area;
 use crate::mesh::{EdgeTable, NearestPoint, PolygonMesh, TriMesh, nearest_point, point_at};
 use crate::problem::{Control, Embedding, SolveError};
 
@@ -29,6 +30,12 @@ const OVERSHOOT: f64 = 0.125;
 
 /// Distance up to which two points have one place, relative to the size of the surface or of the layout. Covers rounding.
 const SAME_PLACE: f64 = 1e-9;
+
+/// Distance up to which nearest points of one vertex may be one place, relative to the size of the surface.
+const BESIDE: f64 = 1e-4;
+
+/// Largest stretch of a layout between two such points, relative to the mean scale of their triangles.
+const STRETCH: f64 = 4.0;
 
 /// No triangle across a side.
 const NONE: u32 = u32::MAX;
@@ -220,7 +227,7 @@ impl LayoutCopy<'_> {
     /// Side of a seam on which a face lies, seen from a vertex. `near` is the point nearest to the centre of the face. A
     /// new side is added. The first side has the nearest point of the whole surface.
     fn side(&self, near: NearestPoint, vertex: DVec3, sides: &mut Vec<NearestPoint>) -> u32 {
-        let reached = point_at(self.search.corners(near.triangle), near.weights).distance_squared(vertex);
+        let reached = self.in_space(&near).distance_squared(vertex);
         let radius = reached * BALL * BALL;
         let tolerance = SAME_PLACE * self.search.diagonal();
         let as_near = (sides[0].distance_squared.sqrt() + tolerance).powi(2);
@@ -255,10 +262,29 @@ impl LayoutCopy<'_> {
         u32::try_from(side).expect("fewer sides than corners")
     }
 
-    /// True if two points of the surface have one place in the layout.
+    /// True if two points of the surface have one place in the layout. A vertex beside the surface, for example by the
+    /// rounding of its file, may have nearest points on several triangles, which lie as close in the layout as in space.
     fn is_same_place(&self, a: &NearestPoint, b: &NearestPoint) -> bool {
-        let [a, b] = [a, b].map(|point| self.inside(point));
-        a == b || a.distance(b) <= SAME_PLACE * self.extent
+        let [uv_a, uv_b] = [a, b].map(|point| self.inside(point));
+        if uv_a == uv_b || uv_a.distance(uv_b) <= SAME_PLACE * self.extent {
+            return true;
+        }
+        let apart = self.in_space(a).distance(self.in_space(b));
+        let scale = self.scale(a.triangle).max(self.scale(b.triangle));
+        apart <= BESIDE * self.search.diagonal() && uv_a.distance(uv_b) <= STRETCH * scale * apart
+    }
+
+    /// Position of a point of the old surface.
+    fn in_space(&self, point: &NearestPoint) -> DVec3 {
+        point_at(self.search.corners(point.triangle), point.weights)
+    }
+
+    /// Length in the layout for a length of the surface, in the mean over a triangle. 0 if it has no area.
+    fn scale(&self, triangle: u32) -> f64 {
+        let [a, b, c] = self.search.corners(triangle);
+        let in_layout = self.layout.mesh.triangles[triangle as usize].map(|vertex| self.layout.coordinates[vertex]);
+        let scale = (double_area(in_layout).abs() / (b - a).cross(c - a).length()).sqrt();
+        if scale.is_finite() { scale } else { 0.0 }
     }
 
     /// Texture coordinate of a point of the old surface.

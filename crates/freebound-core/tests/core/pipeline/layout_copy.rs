@@ -10,7 +10,7 @@ use freebound_core::pipeline::{
 use freebound_core::problem::{Control, Embedding};
 use freebound_core::verify::{LayoutOptions, LayoutVerdict, PlaneLayout, layout_verdict_with};
 use freebound_testkit::many_parts::{ball, torus};
-use freebound_testkit::{grid, shaped};
+use freebound_testkit::{Random, grid, shaped};
 use glam::{DVec2, DVec3};
 
 /// Layout of a mesh of triangles: a coordinate of each corner.
@@ -231,6 +231,32 @@ fn both_sides_of_a_thin_shell_keep_their_charts_whatever_their_numbers_of_faces(
         let wrong = of_outer.iter().filter(|uv| uv.x > 0.5).count() + of_inner.iter().filter(|uv| uv.x < 0.5).count();
         assert!(wrong == 0, "{outer:?} {inner:?} {thickness}: {wrong} corners of the other side");
     }
+}
+
+#[test]
+fn a_copy_does_not_crack_where_vertices_lie_beside_the_surface_by_rounding() {
+    let layout = Layout::unwrapped(&ball(40, 24));
+    let coordinates = |mesh: &TriMesh| {
+        let (copy, copied) = layout.onto(mesh);
+        let verdict = copy.verdict();
+        assert!(verdict.planar, "{verdict:?}");
+        (copied.coordinates.len(), verdict.charts)
+    };
+    let (exact, charts) = coordinates(&ball(20, 12));
+    for noise in [1e-7, 1e-6, 1e-5] {
+        let mut random = Random(5);
+        let mut mesh = ball(20, 12);
+        for p in &mut mesh.positions {
+            *p *= 1.0 + noise * (random.unit() - 0.5);
+        }
+        let (count, found) = coordinates(&mesh);
+        assert!(count <= exact && found == charts, "{noise}: {count} {exact}, {found} {charts}");
+    }
+    let mut mesh = ball(20, 12);
+    for p in &mut mesh.positions {
+        *p = p.as_vec3().as_dvec3();
+    }
+    assert!(coordinates(&mesh).0 <= exact);
 }
 
 #[test]
