@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any
@@ -10,53 +9,18 @@ from typing import Any
 import numpy as np
 
 from . import _arrays, _freebound
-from ._errors import NotProved, OptionError
+from ._corners import CornerLayout
+from ._errors import OptionError
 from ._run import Pack
 
 
-class Packed:
-    """Given layout whose charts have new places. Arrays are read-only."""
-
-    def __init__(self, native: Any) -> None:
-        self._native = native
-
-    @cached_property
-    def corner_uv(self) -> np.ndarray:
-        """Texture coordinates of the corners, in the order of the faces, shape (c, 2)."""
-        return self._native.corner_uv
+class Packed(CornerLayout):
+    """Given layout whose charts have new places. Arrays are read-only. ``save`` also draws the layout (.svg)."""
 
     @cached_property
     def chart(self) -> np.ndarray:
         """Chart of each face, shape (m,); −1 for faces without a triangle."""
         return self._native.chart
-
-    @property
-    def planar(self) -> bool:
-        """True if the layout is one-to-one: no face is flipped, and no two faces overlap. Decided exactly."""
-        return self._native.planar
-
-    @cached_property
-    def report(self) -> dict[str, Any]:
-        """Report of the packing, as ``freebound pack`` writes it."""
-        return self._native.report
-
-    def save(self, path: str | os.PathLike[str], *, precision: str | None = None) -> list[str]:
-        """Writes the mesh with its coordinates (.obj, .ply, .glb) or a drawing (.svg).
-
-        Raises:
-            NotProved: the layout is planar, and rounding folds it. The file is written all the same.
-
-        Args:
-            path: file to write. Its extension names the format.
-            precision: "f64" or "f32". Default: 64 bits for OBJ and 32 bits for PLY and GLB.
-
-        Returns:
-            The files written, ``path`` first.
-        """
-        files, planar = self._native.write(os.fspath(path), precision)
-        if self.planar and not planar:
-            raise NotProved(f"{os.fspath(path)}: the rounded coordinates are not planar")
-        return [os.fspath(file) for file in files]
 
     def __repr__(self) -> str:
         count = self.chart.max() + 1
