@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import BoolProperty
 
-from . import meshes, operators, solving
+from . import meshes, solving
 from .operators import Run
 
 
@@ -30,15 +30,19 @@ class FREEBOUND_OT_copy_layout(Run, bpy.types.Operator):
         default=True,
     )
 
-    @classmethod
-    def poll(cls, context):
-        if operators.is_running():
-            cls.poll_message_set("A run of Freebound is under way")
-            return False
-        if context.mode == "OBJECT" and _targets(context):
-            return True
-        cls.poll_message_set("In object mode, select other meshes of this file, and last the object with the layout")
-        return False
+    missing = "In object mode, select other meshes of this file, and last the object with the layout"
+
+    @staticmethod
+    def _objects(context):
+        """Objects that get the layout, each mesh once."""
+        active = context.active_object
+        if context.mode != "OBJECT" or active is None or active.type != "MESH":
+            return []
+        # Changes of meshes from a library would not be saved.
+        chosen = [item for item in context.selected_objects if item.type == "MESH" and item.data.library is None]
+        others = {item.data: item for item in chosen}
+        others.pop(active.data, None)
+        return list(others.values())
 
     def draw(self, context):
         for name in ("is_in_world", "fit", "marks_seams"):
@@ -46,25 +50,15 @@ class FREEBOUND_OT_copy_layout(Run, bpy.types.Operator):
 
     def _gather(self, context):
         active = context.active_object
-        source = meshes.gather_objects(context, [active], f"there is no UV map on {active.name}: unwrap it first", self.is_in_world, True)
-        self._source = source
-        return meshes.gather_objects(context, _targets(context), "the selected objects have no faces", self.is_in_world)
+        missing = f"there is no UV map on {active.name}: unwrap it first"
+        self._source = meshes.gather_objects(context, [active], missing, self.is_in_world, True)
+        missing = "the selected objects have no faces"
+        return meshes.gather_objects(context, self._objects(context), missing, self.is_in_world)
 
     def _work_of(self):
         source, fit, marks = self._source, self.fit, self.marks_seams
         names = [part.object.name for part in self._selection.parts]
         return lambda task, selection, _: solving.copy_layout(task, source, selection, names, fit, marks)
-
-
-def _targets(context):
-    """Objects that get the layout, each mesh once."""
-    active = context.active_object
-    if active is None or active.type != "MESH":
-        return []
-    # Changes of meshes from a library would not be saved.
-    others = {item.data: item for item in context.selected_objects if item.type == "MESH" and item.data.library is None}
-    others.pop(active.data, None)
-    return list(others.values())
 
 
 CLASSES = (FREEBOUND_OT_copy_layout,)

@@ -39,6 +39,9 @@ class Run:
     #: Task that runs for a person. There is one at a time.
     running = None
 
+    #: What to do if there is no object to work on.
+    missing = "Edit a mesh first"
+
     margin: IntProperty(
         name="Margin", description="Least distance of charts, pixels", default=4, min=0, soft_max=64, max=256
     )
@@ -53,10 +56,15 @@ class Run:
         if is_running():
             cls.poll_message_set("A run of Freebound is under way")
             return False
-        if meshes.objects_of(context):
+        if cls._objects(context):
             return True
-        cls.poll_message_set("Edit a mesh first")
+        cls.poll_message_set(cls.missing)
         return False
+
+    @staticmethod
+    def _objects(context):
+        """Objects to work on."""
+        return meshes.objects_of(context)
 
     def _gather(self, context):
         """Selected faces with coordinates, and the others."""
