@@ -112,10 +112,6 @@ struct TransferChoice {
     threads: Option<u16>,
 }
 
-fn registration(is_fitted: bool) -> Registration {
-    if is_fitted { Registration::ByBox } else { Registration::AsTheyAre }
-}
-
 /// Copies the layout of a mesh to another mesh. `options` is a JSON object; the copy ends if `stop` returns true.
 #[pyfunction]
 #[pyo3(signature = (layout, mesh, options, stop=None))]
@@ -129,7 +125,7 @@ pub(crate) fn transfer(
     let options: TransferChoice = of_json(py, options)?;
     let model = mesh.model();
     let work = |control: Control<'_>| {
-        let (texture, transfer) = copied_texture(&layout.file, &mesh.file, registration(options.fit), control)?;
+        let (texture, transfer) = copied_texture(&layout.file, &mesh.file, Registration::of(options.fit), control)?;
         let copy = MeshFile { texture: Some(texture), ..mesh.file.as_ref().clone() };
         let form = FileForm { kind: OutputKind::Obj, precision: Some(Precision::F64) };
         let file = TransferredFile::of_copy(copy.clone(), transfer, form, control)?;
@@ -230,7 +226,7 @@ pub(crate) fn bake(
         let longest = BakeOptions::LONGEST_SIDE;
         return Err(errors::option_error(py, format!("size: pass width and height from 1 to {longest} pixels")));
     }
-    let rules = BakeOptions { pixels: size, margin: options.margin, registration: registration(options.fit) };
+    let rules = BakeOptions { pixels: size, margin: options.margin, registration: Registration::of(options.fit) };
     let [old, new] = [layout_of(py, &old.file)?, layout_of(py, &new.file)?];
     let work = |control: Control<'_>| {
         let painted = PaintedSurface { layout: old.surface(), picture: &picture };

@@ -82,13 +82,13 @@ impl LayoutOfOther {
             let model = if laid.prepared.chart.is_some() { laid.of_chart(number) } else { laid.clone() };
             let given = model.layout().ok()?;
             let problem = document.problem_with(super::ChartEdits::default());
-            let is_planar = |coordinates: &Embedding| {
+            let if_planar = |coordinates: &Embedding| {
                 let map = Outcome::of_saved_map(model.disk()?, problem.clone(), problem.in_plane(coordinates));
                 map.map(|_| coordinates.clone())
             };
-            let upright = is_planar(&given);
+            let upright = if_planar(&given);
             let is_turned = upright.is_none();
-            let coordinates = upright.or_else(|| is_planar(&turned_over(&given)))?;
+            let coordinates = upright.or_else(|| if_planar(&turned_over(&given)))?;
             let boundary = model.disk()?.boundary_loop().to_vec();
             let first_face = model.prepared.chart.as_ref().map(|of| of.charts.first_face(number));
             let held = if first_face.is_none() { farthest(&boundary, &coordinates) } else { None };

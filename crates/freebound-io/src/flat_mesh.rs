@@ -14,14 +14,9 @@ use freebound_core::mesh::{PolygonMesh, VertexId};
 use freebound_core::problem::Embedding;
 
 impl Output<'_> {
-    /// The layout as a mesh in the plane z = 0, with its texture coordinates. It has one vertex per texture coordinate,
-    /// and the polygons of the file that are flattened. All charts together have the area of their surfaces.
-    pub fn flat_mesh(&self) -> MeshFile {
-        let (polygons, texture) = self.flat_polygons();
-        MeshFile { texture: Some(texture), ..MeshFile::from(polygons) }
-    }
-
-    /// Polygons of the flat mesh, and its texture coordinates.
+    /// The layout as polygons in the plane z = 0, with its texture coordinates. There is one vertex per texture
+    /// coordinate, and the polygons are those of the file that are flattened. All charts together have the area of their
+    /// surfaces.
     fn flat_polygons(&self) -> (PolygonMesh, Texture) {
         // Faces that are left out keep the coordinates of the file. Without these, they have none.
         let bare = MeshFile { texture: None, ..self.source.clone() };

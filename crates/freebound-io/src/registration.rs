@@ -19,6 +19,11 @@ pub enum Registration {
 }
 
 impl Registration {
+    /// Registration for a choice to fit the old surface or not.
+    pub fn of(is_fitted: bool) -> Self {
+        if is_fitted { Self::ByBox } else { Self::AsTheyAre }
+    }
+
     /// The old surface at its place beside the points of the new one. A surface without extent stays where it is.
     pub(crate) fn applied(self, old: &TriMesh, new: impl IntoIterator<Item = DVec3>) -> Cow<'_, TriMesh> {
         let from = SpaceBounds::of(old.triangles.iter().flatten().map(|vertex| old.positions[vertex.index()]));

@@ -28,7 +28,7 @@ impl TransferArguments {
     /// Choices of the copy.
     pub fn options(&self) -> TransferOptions {
         let form = FileForm { kind: self.result.kind(), precision: self.result.precision };
-        TransferOptions { registration: registration_of(self.fit), form }
+        TransferOptions { registration: Registration::of(self.fit), form }
     }
 }
 
@@ -66,11 +66,6 @@ impl BakeArguments {
     /// Size and margin of the new picture.
     pub fn options(&self, picture: &PictureFile) -> BakeOptions {
         let pixels = self.size.map_or_else(|| BakeOptions::size_for(&picture.pixels), |size| size.to_array());
-        BakeOptions { pixels, margin: self.margin, registration: registration_of(self.fit) }
+        BakeOptions { pixels, margin: self.margin, registration: Registration::of(self.fit) }
     }
-}
-
-/// Registration that a flag requests.
-fn registration_of(is_fitted: bool) -> Registration {
-    if is_fitted { Registration::ByBox } else { Registration::AsTheyAre }
 }
