@@ -139,12 +139,12 @@ impl Session {
         self.brushing.start_next(&mesh);
     }
 
-    /// Ends a stroke: it becomes an edit once its newest frame is there.
+    /// Ends a stroke: it becomes an edit at the next poll that has its newest frame. Not at once, because the window is
+    /// drawn by then, and it would not show the run that begins.
     pub(super) fn end_brush(&mut self) {
         if let Some(stroke) = &mut self.brushing.stroke {
             stroke.is_ending = true;
         }
-        self.poll_brush();
     }
 
     /// Drops a stroke and shows the map before it.

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
-use super::state::Tool;
+use super::state::{GestureKind, Tool};
 use super::theme::Theme;
 use freebound_io::Direction;
 
@@ -42,6 +42,50 @@ pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Colo
         for stitch in [[(4.6, 14.2), (9.4, 19.4)], [(9.6, 9.4), (14.4, 14.6)], [(14.6, 4.6), (19.4, 9.8)]] {
             painter.add(Shape::line(on_grid(rect, &stitch), stroke));
         }
+    }
+}
+
+/// Draws the icon of a move of charts into a square. Icons: a cross of arrows, a round arrow, an arrow between two
+/// squares.
+pub(super) fn gesture(painter: &egui::Painter, rect: Rect, kind: GestureKind, colour: Color32) {
+    let stroke = Stroke::new(1.6, colour);
+    let line = |points: &[(f32, f32)]| painter.add(Shape::line(on_grid(rect, points), stroke));
+    match kind {
+        GestureKind::Move => {
+            line(&[(12.0, 4.0), (12.0, 20.0)]);
+            line(&[(4.0, 12.0), (20.0, 12.0)]);
+            for head in [
+                [(9.5, 6.5), (12.0, 4.0), (14.5, 6.5)],
+                [(9.5, 17.5), (12.0, 20.0), (14.5, 17.5)],
+                [(6.5, 9.5), (4.0, 12.0), (6.5, 14.5)],
+                [(17.5, 9.5), (20.0, 12.0), (17.5, 14.5)],
+            ] {
+                line(&head);
+            }
+        }
+        GestureKind::Turn => {
+            let point = |step: u8| {
+                let angle = (f32::from(step) * 15.0 - 60.0).to_radians();
+                (12.0 + 7.5 * angle.cos(), 12.0 + 7.5 * angle.sin())
+            };
+            line(&(0..=18).map(point).collect::<Vec<_>>());
+            line(&[(15.0, 2.5), (15.75, 5.5), (19.0, 5.0)].map(|(x, y)| (x - 0.3, y)));
+        }
+        GestureKind::Scale => {
+            line(&[(4.5, 11.0), (4.5, 19.5), (13.0, 19.5), (13.0, 11.0), (4.5, 11.0)]);
+            line(&[(9.0, 4.5), (19.5, 4.5), (19.5, 15.0)]);
+            line(&[(13.0, 11.0), (17.5, 6.5)]);
+            line(&[(14.0, 6.5), (17.5, 6.5), (17.5, 10.0)]);
+        }
+    }
+}
+
+/// Draws the icon for packing into a square: charts that fill a page.
+pub(super) fn pack(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let stroke = Stroke::new(1.6, colour);
+    for [left, top, right, bottom] in [[4.5, 4.5, 12.5, 10.5], [4.5, 13.5, 12.5, 19.5], [15.5, 4.5, 19.5, 19.5]] {
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        painter.add(Shape::closed_line(on_grid(rect, &corners), stroke));
     }
 }
 

@@ -9,8 +9,6 @@ use crate::view::{Palette, Srgb};
 pub const TOP_HEIGHT: f32 = 30.0;
 /// Height of the bar at the bottom, points.
 pub const BOTTOM_HEIGHT: f32 = 24.0;
-/// Width of the tool bar, points.
-pub const TOOLS_WIDTH: f32 = 44.0;
 /// Initial width of the panels at the right, points.
 pub const PANEL_WIDTH: f32 = 280.0;
 /// Limits of the width of the panels at the right, points.

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
-use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
+use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request, keyboard};
 use crate::ui::panels::{self, floating, menu, status, unsaved, welcome};
 use crate::ui::panes::comparison::comparison_ui;
@@ -28,7 +28,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
     Panel::top("top").exact_size(TOP_HEIGHT).frame(bar).show(ui, |ui| menu::top_bar(ui, editor, &mut requests));
     Panel::bottom("bottom").exact_size(BOTTOM_HEIGHT).frame(bar).show(ui, |ui| status::status_bar(ui, editor));
-    editor.layout.set_width(ui.available_width() - TOOLS_WIDTH);
+    let tools_width = panels::tool_bar_width(ui.available_height());
+    editor.layout.set_width(ui.available_width() - tools_width);
     editor.timeline.window_is_high = ui.available_height() >= CURVES_FROM;
     if editor.layout.panels_shown() {
         let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
@@ -42,9 +43,9 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
             .frame(bar)
             .show(ui, |ui| timeline_ui(ui, editor, &mut requests));
     }
-    let tool_frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(6, 8));
+    let tool_frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(4, 8));
     Panel::left("tools")
-        .exact_size(TOOLS_WIDTH)
+        .exact_size(tools_width)
         .resizable(false)
         .frame(tool_frame)
         .show(ui, |ui| panels::tool_bar(ui, editor, &mut requests));

@@ -7,6 +7,7 @@ use freebound_core::bijective::BrushKind;
 use freebound_core::mesh::VertexId;
 
 use crate::harness::Window;
+use crate::presses::button;
 
 /// Window with a planar map and the brush tool.
 fn window() -> Window {
@@ -48,6 +49,23 @@ fn a_drag_with_each_brush_is_one_edit_of_the_map_and_keeps_the_camera() {
         window.press(Modifiers::COMMAND, Key::Z);
         assert!(window.embedding() == before, "{name} {}", window.editor().session.history().depth());
         assert!(!can_undo(&window), "{name}");
+    }
+}
+
+#[test]
+fn the_run_after_a_stroke_shows_in_the_frame_in_which_it_begins() {
+    let mut window = window();
+    window.click("Grab brush");
+    let from = middle(&window);
+    window.begin_drag(from, from + Vec2::new(30.0, 12.0), Modifiers::NONE);
+    let mut has_run = false;
+    window.harness.event(button(from + Vec2::new(30.0, 12.0), false, Modifiers::NONE));
+    // The stroke begins the run once its last frame is there.
+    while !has_run || window.editor().session.is_running() {
+        window.step();
+        let is_running = window.editor().session.is_running();
+        has_run |= is_running;
+        assert_eq!(window.has_button("Pause"), is_running);
     }
 }
 

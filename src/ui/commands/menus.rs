@@ -110,7 +110,7 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
     menu.separator();
     menu.part("Tools", |menu| {
         for tool in Tool::ALL {
-            menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
+            menu.choice(editor.tools.tool() == tool, tool.words()[2], Request::SetTool(tool));
         }
         menu.separator();
         menu.item(ALWAYS, "Make the brush larger", Request::ResizeBrush { grows: true });

@@ -2,7 +2,8 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
+//! | `mod.rs` | the panel at the right with its tabs |
+//! | `tool_bar.rs` | the tool bar at the left |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `hull_section.rs` | vertices outside the hull of their neighbours: in the tabs of defects and of the vertex |
 //! | `boundary_rows.rs` | shape of the boundary: in the method tab |
@@ -58,6 +59,7 @@ mod seams_section;
 pub(super) mod status;
 mod surface;
 pub(super) mod toast;
+mod tool_bar;
 mod tour;
 pub(super) mod unsaved;
 mod verdict_pill;
@@ -66,36 +68,10 @@ pub(super) mod welcome;
 mod welding;
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{self, Align, FontSelection, RichText, Role, Sense, Vec2, WidgetInfo};
+use eframe::egui::{self, Align, FontSelection, RichText};
 
-use super::theme::{HOVERED, SELECTED};
-use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
-
-/// Side of a tool button, points.
-const BUTTON: f32 = 32.0;
-
-pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    ui.vertical_centered(|ui| {
-        for tool in Tool::ALL {
-            let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-            let on = editor.tools.tool() == tool;
-            let about = tool.words()[2];
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, about));
-            let theme = theme_of(ui);
-            if on || response.hovered() {
-                let share = if on { SELECTED } else { HOVERED };
-                ui.painter().rect_filled(rect, 5.0, theme.accent.gamma_multiply(share));
-            }
-            if response.has_focus() {
-                ui.painter().rect_stroke(rect, 5.0, egui::Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
-            }
-            let colour = if on { theme.accent } else { theme.text };
-            icons::tool(ui.painter(), rect, tool, colour);
-            let request = Request::SetTool(tool);
-            response.on_hover_text(tip_with_keys(ui, about, &request)).asks(request, requests);
-        }
-    });
-}
+use super::{Control, Editor, Request, Tab};
+pub(super) use tool_bar::{tool_bar, tool_bar_width};
 
 /// Panel at the right: a row of tabs and the contents of the open tab.
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {

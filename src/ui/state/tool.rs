@@ -24,14 +24,16 @@ impl Tool {
     /// All tools, from top to bottom.
     pub const ALL: [Self; 5] = [Self::Select, Self::Fix, Self::Constrain, Self::Seam, Self::Brush];
 
-    /// Name in files, menu entry, and description.
-    pub(in crate::ui) const fn words(self) -> [&'static str; 3] {
+    /// Name in files, name of its button, menu entry, and description.
+    pub(in crate::ui) const fn words(self) -> [&'static str; 4] {
         match self {
-            Self::Select => ["select", "Select vertices", "Select vertices"],
-            Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex at its current position"],
-            Self::Constrain => ["constrain", "Constrain vertices", "Constrain: choose the position of a vertex"],
-            Self::Seam => ["seam", "Draw seams", "Seam: cut the mesh along paths from vertex to vertex"],
-            Self::Brush => ["brush", "Brush the map", "Brush: relax, grab, pinch, smooth, or more texels"],
+            Self::Select => ["select", "Select", "Select vertices", "Select vertices"],
+            Self::Fix => ["fix", "Fix", "Fix vertices", "Fix: pin a vertex at its current position"],
+            Self::Constrain => {
+                ["constrain", "Constrain", "Constrain vertices", "Constrain: choose the position of a vertex"]
+            }
+            Self::Seam => ["seam", "Seam", "Draw seams", "Seam: cut the mesh along paths from vertex to vertex"],
+            Self::Brush => ["brush", "Brush", "Brush the map", "Brush: relax, grab, pinch, smooth, or more texels"],
         }
     }
 }

@@ -48,7 +48,7 @@ impl<'a> Chip<'a> {
             index,
             record: &records[index],
             standing: &timeline.standings()[index],
-            label: if is_new { format!("{index} {}", stage.short_words()) } else { index.to_string() },
+            label: if is_new { format!("{index}: {}", stage.short_words()) } else { index.to_string() },
             is_shown: timeline.shown() == Some(index),
             is_compared: timeline.compared() == Some(index),
             is_kept: timeline.outcome(index).is_some(),
