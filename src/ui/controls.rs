@@ -125,6 +125,13 @@ pub(in crate::ui) fn remark(ui: &mut Ui, words: impl Into<String>) -> Response {
     ui.label(RichText::new(words).small().color(weak))
 }
 
+/// Link to a place of the documentation.
+pub(in crate::ui) fn read_more(ui: &mut Ui, words: &str, place: &'static str, requests: &mut Vec<Request>) {
+    let link =
+        ui.link(RichText::new(words).small().color(theme_of(ui).accent)).on_hover_text("Open the documentation there");
+    link.asks(Request::ShowDocumentation(Some(place)), requests);
+}
+
 /// Grid of two columns: names and their values.
 pub(in crate::ui) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: impl FnOnce(&mut Ui)) {
     Grid::new(name).num_columns(2).spacing(spacing).show(ui, rows);

@@ -7,6 +7,9 @@ use freebound_io::Column;
 
 use super::state::ShadingMode;
 
+/// Mean energy up to which a map counts as hardly distorted.
+pub(in crate::ui) const GOOD_ENERGY: f64 = 4.1;
+
 /// Measure that explains itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {

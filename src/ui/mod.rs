@@ -17,12 +17,14 @@
 //! | `keys.rs`, `keyboard.rs` | table of shortcuts; requests of key presses, pins moved by arrow keys |
 //! | `dialogs/` | file dialogs |
 //! | `icons.rs` | signs of tools and verdicts |
+//! | `documentation.rs` | pages of the book, and a search in them |
 //! | `round_joins.rs` | closed lines without spikes |
 //! | `theme.rs` | colours and sizes |
 
 mod commands;
 mod controls;
 mod dialogs;
+mod documentation;
 mod editor;
 mod explanations;
 mod icons;
@@ -42,11 +44,12 @@ mod window;
 pub use controls::sentence;
 use controls::{
     Control, Offer, accented, close_button, counted, figures, five_digits, head, heads, list, number, open_list,
-    option_list, pairs, remark, short, tip_with_keys,
+    option_list, pairs, read_more, remark, short, tip_with_keys,
 };
 pub(crate) use dialogs::Dialogs;
 pub use editor::{Defect, Editor, MorphView};
 use editor::{Element, HullScene};
+use explanations::GOOD_ENERGY;
 pub use explanations::Measure;
 pub use key_map::{KeyMap, KeyPreset};
 pub use keys::{BINDINGS, Binding};

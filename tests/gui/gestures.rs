@@ -141,6 +141,24 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
 }
 
 #[test]
+fn a_stroke_drawn_with_ctrl_and_shift_selects_what_lies_near_its_line() {
+    let mut window = window();
+    let view = window.plane_view();
+    let [a, b] = [[0.2, 0.3], [0.8, 0.6]].map(|[x, y]| view.min + view.size() * Vec2::new(x, y));
+    window.drag(a, b, Modifiers::COMMAND | Modifiers::SHIFT);
+    let from_line = |at: egui::Pos2| {
+        let share = ((at - a).dot(b - a) / (b - a).length_sq()).clamp(0.0, 1.0);
+        (a + share * (b - a)).distance(at)
+    };
+    let embedding = window.embedding();
+    let places: Vec<egui::Pos2> = embedding.iter().map(|z| window.place_in_plane(*z)).collect();
+    let near = |width: f32| places.iter().filter(|at| from_line(**at) <= width).count();
+    let selected = window.editor().selection.vertices().clone();
+    assert!(selected.iter().all(|vertex| from_line(places[vertex.index()]) <= 15.0));
+    assert!(selected.len() >= near(13.0) && selected.len() > 1 && selected.len() < embedding.len() / 2);
+}
+
+#[test]
 fn a_lasso_drawn_with_ctrl_and_alt_selects_what_it_surrounds() {
     let mut window = window();
     let embedding = window.embedding();

@@ -8,7 +8,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::LaunchFile;
 use freebound::session::Action;
-use freebound::ui::{BINDINGS, KeyMap, KeyPreset, Request, Tool};
+use freebound::ui::{BINDINGS, KeyMap, KeyPreset, Request, Tab, Tool};
 
 use crate::harness::{SIZE, Window, sheet};
 
@@ -64,6 +64,41 @@ fn the_palette_finds_commands_by_words_in_any_order_and_runs_them() {
     find(&mut window, "all keys");
     window.click("Command Help › All keys");
     assert!(window.editor().layout.keys_shown);
+}
+
+#[test]
+fn the_documentation_opens_turns_its_pages_and_finds_sections() {
+    let mut window = window();
+    window.menu(&["Help", "Documentation"]);
+    assert!(window.editor().layout.help.has_documentation());
+    assert!(window.shows("Choose where to start:"), "the first page");
+    window.click("Choosing a method");
+    assert!(window.shows("Decision table"));
+    window.click("Back");
+    assert!(window.shows("Choose where to start:") && !window.has_button("Back"));
+    window.fill_in(Role::SearchInput, "Find in the documentation", "zebra");
+    window.settle();
+    assert!(window.shows("No section has all these words."));
+    window.fill_in(Role::SearchInput, "Find in the documentation", "word proved");
+    window.settle();
+    window.click("Planar maps and proofs: The word proved");
+    assert!(window.shows("The word proved"));
+    window.key(Key::Escape);
+    assert!(!window.editor().layout.help.has_documentation());
+}
+
+#[test]
+fn links_of_the_panels_open_the_documentation_at_their_sections() {
+    let mut window = window();
+    window.editor_mut().handle(Request::ShowTab(Tab::Method));
+    window.settle();
+    for (link, words) in [("Which method?", "Decision table"), ("What do the numbers mean?", "Columns")] {
+        window.harness.get_by_role_and_label(Role::Link, link).click();
+        window.settle();
+        assert!(window.editor().layout.help.has_documentation(), "{link}");
+        assert!(window.shows(words), "{link}");
+        window.key(Key::Escape);
+    }
 }
 
 #[test]

@@ -144,6 +144,15 @@ fn a_lasso_adds_the_charts_that_it_meets() {
 }
 
 #[test]
+fn a_stroke_adds_the_charts_that_it_crosses_far_from_their_outlines() {
+    let mut window = with_sheets();
+    let (from, to) = (middle(&window, 0), middle(&window, 2));
+    drag(&mut window, from, to, Modifiers::COMMAND | Modifiers::SHIFT);
+    assert!(selected(&window).contains(&0) && selected(&window).contains(&2), "{:?}", selected(&window));
+    assert_eq!(window.editor().session.history().depth(), OPENED);
+}
+
+#[test]
 fn a_dragged_chart_follows_the_pointer_in_one_edit_and_all_frames_are_proved() {
     let mut window = with_sheets();
     let before: Vec<Bounds> = (0..3).map(|chart| bounds(&window, chart)).collect();

@@ -1,5 +1,7 @@
 //! Selection of vertices and charts by the mesh, the map and the present selection.
 
+use eframe::egui::{Key, Modifiers, Vec2};
+use freebound::examples::Example;
 use freebound::session::Action;
 use freebound::ui::{PageRequest, Request, SelectBy};
 use freebound_core::mesh::VertexId;
@@ -41,6 +43,50 @@ fn a_side_of_a_roof_is_selected_up_to_its_ridge() {
     window.editor_mut().selection.select([VertexId::new(20)]);
     window.menu(&["Edit", "Select", "Select up to sharp edges"]);
     assert_eq!(selected(&window), 25);
+}
+
+#[test]
+fn edge_loops_and_rings_of_quadrilaterals_cross_the_sheet() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("squares.obj");
+    let vertices: String = (0..49).map(|i| format!("v {} {} 0\n", i % 7, i / 7)).collect();
+    let corner = |x: u32, y: u32| 7 * y + x + 1;
+    let face =
+        |x, y| format!("f {} {} {} {}\n", corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1));
+    let faces: String = (0..36).map(|i| face(i % 6, i / 6)).collect();
+    std::fs::write(&path, vertices + &faces).expect("the folder can be written to");
+    let mut window = Window::with_file(&path);
+    let edge = [VertexId::new(24), VertexId::new(25)];
+    window.editor_mut().selection.select(edge);
+    window.menu(&["Edit", "Select", "Select edge loops"]);
+    assert_eq!(*window.editor().selection.vertices(), (21..28).map(VertexId::new).collect());
+    window.editor_mut().selection.select(edge);
+    window.menu(&["Edit", "Select", "Select edge rings"]);
+    let ring = (0..7).flat_map(|y| [7 * y + 3, 7 * y + 4]).map(VertexId::new).collect();
+    assert_eq!(*window.editor().selection.vertices(), ring);
+    // Opposite corners of a quadrilateral have no edge between them, though its triangles may have one.
+    for diagonal in [[24, 32], [25, 31]] {
+        window.editor_mut().selection.select(diagonal.map(VertexId::new));
+        assert!(!window.editor().can_select_by(SelectBy::Loops) && !window.editor().can_select_by(SelectBy::Rings));
+    }
+}
+
+#[test]
+fn a_box_through_the_mesh_selects_what_the_mesh_hides() {
+    let mut window = Window::with_example(Example::BumpyCap);
+    let view = window.mesh_view();
+    let all = window.embedding().len();
+    let around = |window: &mut Window| {
+        window.editor_mut().selection.select([]);
+        window.drag(view.min + Vec2::splat(2.0), view.max - Vec2::splat(2.0), Modifiers::COMMAND);
+        selected(window)
+    };
+    let seen = around(&mut window);
+    assert!(seen > 0 && seen < all, "{seen} of {all}");
+    window.menu(&["Edit", "Select", "Through the mesh (X-ray)"]);
+    assert_eq!(around(&mut window), all);
+    window.press(Modifiers::ALT, Key::Z);
+    assert_eq!(around(&mut window), seen);
 }
 
 #[test]

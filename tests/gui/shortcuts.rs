@@ -76,6 +76,8 @@ fn selected_by(by: SelectBy) -> usize {
         SelectBy::Invert => 80,
         SelectBy::Grow => 7,
         SelectBy::Shrink => 0,
+        // A single vertex has no edge to go on from.
+        SelectBy::Loops | SelectBy::Rings => 1,
         _ => panic!("{by:?} has a key that no test knows"),
     }
 }
@@ -128,6 +130,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::ResizeBrush { grows } => (editor.tools.brush.radius > BrushChoice::default().radius) == grows,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
             Request::SelectBy(by) => editor.selection.vertices().len() == selected_by(by),
+            Request::ToggleThrough => editor.selection.through,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
@@ -138,7 +141,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,
             Request::OpenMenu(place) => {
-                let first = ["Open…", "Undo", "Shading of the mesh", "Take one step", "All keys"][place];
+                let first = ["Open…", "Undo", "Shading of the mesh", "Take one step", "Documentation"][place];
                 window.has_button(first)
             }
             Request::ToggleKeys => editor.layout.keys_shown,

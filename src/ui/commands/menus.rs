@@ -33,6 +33,7 @@ pub(in crate::ui) const MENUS: [(&str, Fill); 5] =
     [("File", file_menu), ("Edit", edit_menu), ("View", view_menu), ("Solve", solve_menu), ("Help", help_menu)];
 
 fn help_menu(menu: &mut MenuBuilder<'_>) {
+    menu.item(ALWAYS, "Documentation", Request::ShowDocumentation(None));
     menu.item(ALWAYS, "All keys", Request::ToggleKeys);
     menu.item(ALWAYS, "Guided tour", Request::StartTour);
     menu.item(ALWAYS, "Welcome", Request::ToggleWelcome);
@@ -121,6 +122,8 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
             let allowed = when(editor.can_select_by(by), by.reason(editor.shows_page()));
             menu.explained(allowed, by.words(), Request::SelectBy(by));
         }
+        menu.separator();
+        menu.switch(editor.selection.through, "Through the mesh (X-ray)", Request::ToggleThrough);
     });
     menu.part("Seams", |menu| {
         let has_model = session.model().is_some();

@@ -18,7 +18,7 @@ pub struct GoTo {
     pub(in crate::ui) takes_keyboard: bool,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Layout {
     tab: Tab,
     /// The user's choice to show or hide the panels at the right, if made.

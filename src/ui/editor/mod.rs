@@ -101,6 +101,7 @@ use mesh_view::MeshView;
 use opened::Opened;
 use plane::{PlaneView, SECONDS, Surroundings};
 use scene::MeshScene;
+pub(in crate::ui) use selection::RegionShape;
 use selection::{Pointer, Selection, ToolState};
 
 /// Interval at which the session checks if a recovery copy is due.

@@ -20,6 +20,8 @@ pub struct Selection {
     /// True if the selection is to be framed with that scene.
     is_framed_later: bool,
     defect: Option<usize>,
+    /// True if vertices behind the mesh are picked and selected, too (X-ray).
+    pub through: bool,
     /// True if vertices outside the hull of their neighbours are marked. They are not defects, but the cause of
     /// folds.
     pub marks_outside_hull: bool,
@@ -94,13 +96,23 @@ impl Selection {
     }
 }
 
+/// Shapes of regions that select.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum RegionShape {
+    /// Box between two corners.
+    Box,
+    /// Inside of a closed curve.
+    Lasso,
+    /// Surroundings of a line, as wide as a brush.
+    Stroke,
+}
+
 /// Region that is being drawn to select what lies in it.
 #[derive(Clone, Debug)]
 pub(in crate::ui) struct DrawnRegion {
     pane: Pane,
-    /// True for a lasso, false for a box.
-    pub(in crate::ui) is_lasso: bool,
-    /// Points of a lasso, or two corners of a box; window points.
+    pub(in crate::ui) shape: RegionShape,
+    /// Points of a lasso or a stroke, or two corners of a box; window points.
     pub(in crate::ui) points: Vec<egui::Pos2>,
 }
 
@@ -167,20 +179,22 @@ impl Pointer {
         (self.pane, self.in_embedding, self.vertex) = (Some(Pane::Plane), place, vertex);
     }
 
-    /// Region being drawn in a pane, with the pointer as its newest point. A lasso gets a point after each `step`.
+    /// Region being drawn in a pane, with the pointer as its newest point. A lasso or a stroke gets a point after each
+    /// `step`.
     pub(in crate::ui) fn region_in(&mut self, pane: Pane, at: egui::Pos2, step: f32) -> Option<&DrawnRegion> {
         let drawn = self.region.as_mut().filter(|drawn| drawn.pane == pane)?;
-        if !drawn.is_lasso {
+        let is_box = drawn.shape == RegionShape::Box;
+        if is_box {
             drawn.points.truncate(1);
         }
-        if !drawn.is_lasso || drawn.points.last().is_none_or(|last| last.distance(at) >= step) {
+        if is_box || drawn.points.last().is_none_or(|last| last.distance(at) >= step) {
             drawn.points.push(at);
         }
         self.region.as_ref()
     }
 
-    pub(in crate::ui) fn begin_region(&mut self, pane: Pane, from: Option<egui::Pos2>, is_lasso: bool) {
-        self.region = from.map(|from| DrawnRegion { pane, is_lasso, points: vec![from] });
+    pub(in crate::ui) fn begin_region(&mut self, pane: Pane, from: Option<egui::Pos2>, shape: RegionShape) {
+        self.region = from.map(|from| DrawnRegion { pane, shape, points: vec![from] });
     }
 
     pub(in crate::ui) fn end_region(&mut self) -> bool {

@@ -5,6 +5,7 @@ use std::time::SystemTime;
 
 use eframe::egui::{self, Align2, Role};
 
+use super::documentation::documentation;
 use crate::session::{LoggedMessage, Severity};
 use crate::ui::{Control, Editor, sentence, theme_of};
 
@@ -24,6 +25,7 @@ fn about_words() -> String {
 
 /// Shows the windows of the Help menu that are open.
 pub(super) fn help_windows(context: &egui::Context, editor: &mut Editor) {
+    documentation(context, editor);
     about(context, &mut editor.layout.help.about_shown);
     log(context, editor);
 }

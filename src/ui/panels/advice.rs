@@ -5,8 +5,8 @@
 use eframe::egui::{self, Button};
 
 use super::menu::grouped;
-use super::quality::GOOD;
 use crate::session::{Action, MapOrigin, RunStop, Session, Status};
+use crate::ui::GOOD_ENERGY;
 use crate::ui::{Control, Editor, Request, Tab, accented, short, theme_of, tip_with_keys, with_keys_set};
 use freebound_core::problem::{Method, Settings};
 
@@ -40,7 +40,7 @@ impl Advice {
             let ratio = step.distortion.summary.bad_ratio_of_areas().filter(|_| session.can_relax());
             let energy = step.distortion.summary.symmetric_dirichlet.mean;
             let is_uncut = session.map_origin() == Some(MapOrigin::Plain) && session.can_unwrap();
-            let unwrap = (is_uncut && energy > GOOD).then_some(Self::Unwrap(energy));
+            let unwrap = (is_uncut && energy > GOOD_ENERGY).then_some(Self::Unwrap(energy));
             change.map(Self::Change).or(ratio.map(Self::Relax)).or(unwrap)
         } else if session.can_repair() {
             Some(Self::Repair)
@@ -135,7 +135,7 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
         }
         Advice::Unwrap(energy) => {
             let tip = format!(
-                "Energy {}. Seams lower it to at most {GOOD}, which is hardly visible. Undo returns to the mesh without \
+                "Energy {}. Seams lower it to at most {GOOD_ENERGY}, which is hardly visible. Undo returns to the mesh without \
                  seams",
                 short(energy)
             );

@@ -7,7 +7,7 @@ use super::file_layout::file_layout;
 use super::hull_section::hull_section;
 use super::parts::parts;
 use super::welding::welding;
-use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
+use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, read_more, theme_of};
 use freebound_core::mesh::VertexId;
 use freebound_core::verify::Verdict;
 
@@ -78,6 +78,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     if verdict.planar {
         ui.colored_label(theme.planar, "Planar: proved one-to-one");
         ui.label("Exact arithmetic shows that no face is flipped and that the boundary does not meet itself.");
+        read_more(ui, "What is proved?", "why.md#the-word-proved", requests);
         unmet_list(ui, &outcome.step.unmet(), requests);
         let new = outcome.new_vertex_count();
         if new > 0 {
@@ -87,6 +88,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         return;
     }
     counts(ui, editor, verdict, requests);
+    read_more(ui, "What are these defects?", "window.md#defects", requests);
     let turns = verdict.turning_number.map_or_else(|| "undefined".to_owned(), |turns| turns.to_string());
     ui.label(RichText::new(format!("Turning number of the boundary: {turns}")).color(theme.weak_text))
         .on_hover_text("1 if the boundary goes around once. Undefined if an edge has no length or turns back");

@@ -8,7 +8,7 @@ use super::surface::{charts_row, holes_row, start_remark, start_row};
 use crate::session::Action;
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{
-    Control, Editor, Measure, Request, Typed, figures, head, list, number, pairs, remark, sentence, short,
+    Control, Editor, Measure, Request, Typed, figures, head, list, number, pairs, read_more, remark, sentence, short,
     tip_with_keys, with_keys_set,
 };
 use freebound_core::pipeline::Outcome;
@@ -51,6 +51,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     ui.add_space(6.0);
     let words = settings.method.labels();
     remark(ui, format!("{}. {}.", sentence(words.about), sentence(words.source)));
+    read_more(ui, "Which method?", "methods.md#decision-table", requests);
     more(ui, &mut edit);
     edit.ask_for(settings, requests);
     ui.add_space(8.0);
@@ -58,7 +59,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(outcome) = editor.step_on_screen() {
         ui.add_space(8.0);
         comparison(ui, editor);
-        distortion(ui, outcome);
+        distortion(ui, outcome, requests);
         ui.add_space(4.0);
         numbers(ui, outcome);
     }
@@ -258,9 +259,12 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
     });
 }
 
-fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
+fn distortion(ui: &mut egui::Ui, outcome: &Outcome, requests: &mut Vec<Request>) {
     let summary = &outcome.distortion.summary;
-    ui.strong("Distortion");
+    ui.horizontal(|ui| {
+        ui.strong("Distortion");
+        read_more(ui, "What do the numbers mean?", "methods.md#columns", requests);
+    });
     egui::Grid::new("distortion").num_columns(4).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("");
         for (words, measure) in [("mean", Measure::Mean), ("p99", Measure::P99), ("max", Measure::Max)] {

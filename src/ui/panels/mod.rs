@@ -26,6 +26,7 @@
 //! | `floating.rs` | "Go to", file dialog inside the window, exports, pictures of panes |
 //! | `keys_window.rs` | list of keys and gestures; changes of keys |
 //! | `palette.rs` | command palette |
+//! | `documentation.rs` | documentation window |
 //! | `about.rs` | About, and the messages of this run |
 //! | `toast.rs` | success message, for a few seconds |
 //! | `tour.rs` | card of the guided tour |
@@ -40,6 +41,7 @@ mod charts_panel;
 mod compare_panel;
 mod defects_panel;
 mod diagnosis;
+mod documentation;
 pub(super) mod equation_table;
 mod export_options;
 mod file_layout;

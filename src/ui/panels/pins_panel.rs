@@ -10,8 +10,8 @@ use crate::session::{Action, named};
 use crate::ui::panes::pins::{Emphasis, PinMark};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
 use crate::ui::{
-    Control, Editor, FileDialogKind, Offer, Request, Tool, Typed, counted, five_digits, keys_of, remark, sentence,
-    theme_of,
+    Control, Editor, FileDialogKind, Offer, Request, Tool, Typed, counted, five_digits, keys_of, read_more, remark,
+    sentence, theme_of,
 };
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
@@ -45,6 +45,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
     }
     if document.targets.is_empty() {
         no_pins(ui);
+        read_more(ui, "How to place pins", "window.md#pins", requests);
     } else {
         table(ui, editor, requests);
         together(ui, editor, requests);

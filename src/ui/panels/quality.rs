@@ -8,12 +8,9 @@ use super::advice::ratio_words;
 use crate::session::{Action, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::CHIP_HOVERED;
-use crate::ui::{Control, Editor, Measure, Request, ShadingMode, short, theme_of, with_keys_set};
+use crate::ui::{Control, Editor, GOOD_ENERGY, Measure, Request, ShadingMode, short, theme_of, with_keys_set};
 use freebound_core::pipeline::Outcome;
 use freebound_core::verify::DistortionSummary;
-
-/// Mean energy up to which a map is good.
-pub(super) const GOOD: f64 = 4.1;
 
 /// Mean energy of a chart up to which the map of all charts is good.
 const GOOD_CHART: f64 = 4.5;
@@ -98,7 +95,7 @@ impl Quality {
         let worst = self.worst.map_or(self.energy, |(_, energy)| energy);
         let is_even = self.area_ratio < DistortionSummary::BAD_RATIO_OF_AREAS;
         match self.energy {
-            energy if energy <= GOOD && worst <= GOOD_CHART && is_even => Grade::Good,
+            energy if energy <= GOOD_ENERGY && worst <= GOOD_CHART && is_even => Grade::Good,
             energy if energy <= FAIR && is_even => Grade::Fair,
             _ => Grade::Poor,
         }
@@ -106,8 +103,10 @@ impl Quality {
 
     /// Numbers and remedy, for the tooltip.
     fn tip(&self) -> String {
-        let mut lines =
-            vec![format!("Mean energy {}: below {GOOD} is good", short(self.energy)), Measure::Energy.tip().to_owned()];
+        let mut lines = vec![
+            format!("Mean energy {}: below {GOOD_ENERGY} is good", short(self.energy)),
+            Measure::Energy.tip().to_owned(),
+        ];
         lines.extend(self.worst.map(|(chart, energy)| format!("Worst chart: {chart}, with energy {}", short(energy))));
         let ratio = if self.area_ratio < 10.0 { short(self.area_ratio) } else { ratio_words(self.area_ratio) };
         lines.push(format!("Areas of faces differ up to {ratio} : 1"));

@@ -1,8 +1,6 @@
 //! Bar at the left: the tools of the left mouse button, and the work on the charts of the page.
 
-use eframe::egui::{
-    self, Align2, Color32, FontId, Rect, RectAlign, Role, Sense, TextStyle, Tooltip, Vec2, WidgetInfo,
-};
+use eframe::egui::{self, Align2, Color32, FontId, Rect, RectAlign, Role, Sense, TextStyle, Tooltip, Vec2, WidgetInfo};
 
 use crate::ui::state::{GestureKind, PageRequest};
 use crate::ui::theme::{HOVERED, SELECTED};

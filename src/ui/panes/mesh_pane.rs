@@ -53,7 +53,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         ui.ctx().request_repaint();
     }
     if let Some(pointer) = response.hover_pos().map(|at| in_pane(rect, at)) {
-        let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
+        let visibility = if editor.selection.through { Visibility::All } else { Visibility::Visible };
+        let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, visibility);
         let pick = pick.filter(|_| editor.is_of_session(&scene));
         let ray = camera.ray(pointer, editor.mesh.pane.size());
         editor.pointer.over_mesh(pick.map(|pick| scene.on_side_at(pick.vertex, ray)));
@@ -66,7 +67,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     if let Some(region) = draw_region(ui, &response, editor, Pane::Mesh) {
         let inside = |vertex: &VertexId| {
             let at = view.spot(scene.mesh().positions[vertex.index()]);
-            at.is_some_and(|at| region.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
+            let is_seen = || editor.selection.through || scene.picker.is_visible(*vertex, camera.eye());
+            at.is_some_and(|at| region.contains(at)) && is_seen()
         };
         requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }

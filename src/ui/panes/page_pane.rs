@@ -53,7 +53,9 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
         ui.painter().add(render::plane_pane(PaneId("page"), rect, frame));
     }
     if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
-        requests.push(PageRequest::Add(scene.charts_within(|at| region.contains(view.spot(at)))).into());
+        let mut charts = scene.charts_within(|at| region.contains(view.spot(at)));
+        charts.extend(region.line().iter().filter_map(|&at| scene.chart_at(view.point_at(at))));
+        requests.push(PageRequest::Add(charts).into());
     }
     click(ui, response, editor, requests);
     tiles(ui, view, editor, &scene);
@@ -149,7 +151,10 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
         let view = Viewport { rect, camera };
         let is_in_region = |at| view.spot(at).is_some_and(|at| region.contains(at));
         let is_inside = |chart: &usize| scene.has_seen_vertex(*chart, camera.eye(), is_in_region);
-        requests.push(PageRequest::Add((0..scene.spans.len()).filter(is_inside).collect()).into());
+        let mut charts: Vec<usize> = (0..scene.spans.len()).filter(is_inside).collect();
+        let under = |&at: &Pos2| scene.chart_hit(camera.ray(in_pane(rect, at), size_of(rect)));
+        charts.extend(region.line().iter().filter_map(under));
+        requests.push(PageRequest::Add(charts).into());
     }
     if response.clicked() && editor.plane.page.gesture().is_none() {
         let adds = ui.input(|input| input.modifiers.shift);

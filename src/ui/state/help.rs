@@ -1,6 +1,9 @@
-//! State of the windows that help: command palette, list of keys, messages of this run, and About.
+//! State of the windows that help: command palette, list of keys, documentation, messages of this run, and About.
 
 use eframe::egui::KeyboardShortcut;
+use egui_commonmark::CommonMarkCache;
+
+use crate::ui::documentation::{BookPlace, FoundSection, PAGES, ShownPage};
 
 /// Greatest number of recent commands.
 const MOST_RECENT: usize = 8;
@@ -36,8 +39,79 @@ pub(in crate::ui) struct KeyList {
     pub(in crate::ui) clash: Option<KeyClash>,
 }
 
+/// Documentation window that is open.
+#[derive(Debug)]
+pub(in crate::ui) struct DocumentationView {
+    pub(in crate::ui) query: String,
+    /// True once its search field has the focus.
+    pub(in crate::ui) has_focus: bool,
+    /// Sections that the search found.
+    pub(in crate::ui) found: Vec<FoundSection>,
+    place: BookPlace,
+    pub(in crate::ui) shown: ShownPage,
+    /// Anchor to scroll to in the next frame; the inner `None` is the top of the page.
+    goal: Option<Option<String>>,
+    /// Places before this one.
+    before: Vec<BookPlace>,
+    /// State of the viewer.
+    pub(in crate::ui) cache: CommonMarkCache,
+}
+
+impl DocumentationView {
+    fn new(place: BookPlace) -> Self {
+        let mut view = Self {
+            query: String::new(),
+            has_focus: false,
+            found: Vec::new(),
+            place: place.clone(),
+            shown: ShownPage::default(),
+            goal: None,
+            before: Vec::new(),
+            cache: CommonMarkCache::default(),
+        };
+        view.show(place);
+        view
+    }
+
+    /// Number of the page.
+    pub(in crate::ui) fn place(&self) -> usize {
+        self.place.page
+    }
+
+    pub(in crate::ui) fn go_to(&mut self, place: BookPlace) {
+        self.before.push(self.place.clone());
+        self.show(place);
+    }
+
+    pub(in crate::ui) fn can_go_back(&self) -> bool {
+        !self.before.is_empty()
+    }
+
+    /// Returns to the place before.
+    pub(in crate::ui) fn go_back(&mut self) {
+        if let Some(place) = self.before.pop() {
+            self.show(place);
+        }
+    }
+
+    /// Anchor to scroll to, once; the inner `None` is the top of the page.
+    pub(in crate::ui) fn take_goal(&mut self) -> Option<Option<String>> {
+        self.goal.take()
+    }
+
+    fn show(&mut self, place: BookPlace) {
+        self.shown = PAGES[place.page].shown();
+        self.goal = Some(place.anchor.clone());
+        self.place = place;
+        self.cache.link_hooks_clear();
+        for (link, _) in &self.shown.links {
+            self.cache.add_link_hook(link.clone());
+        }
+    }
+}
+
 /// Windows that help.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Help {
     pub(in crate::ui) palette: Option<Palette>,
     /// Names of the commands chosen last in the palette, newest first.
@@ -45,12 +119,30 @@ pub struct Help {
     pub(in crate::ui) keys: KeyList,
     pub(in crate::ui) log_shown: bool,
     pub(in crate::ui) about_shown: bool,
+    pub(in crate::ui) documentation: Option<DocumentationView>,
 }
 
 impl Help {
     /// True if the command palette is open.
     pub fn has_palette(&self) -> bool {
         self.palette.is_some()
+    }
+
+    /// True if the documentation is open.
+    pub fn has_documentation(&self) -> bool {
+        self.documentation.is_some()
+    }
+
+    /// Opens the documentation at a place. Without a place, opens it at its beginning, or closes it.
+    pub(in crate::ui) fn show_documentation(&mut self, place: Option<&str>) {
+        self.documentation = match (place, self.documentation.take()) {
+            (None, Some(_)) => None,
+            (place, None) => Some(DocumentationView::new(BookPlace::of(place.unwrap_or_default()))),
+            (Some(place), Some(mut view)) => {
+                view.go_to(BookPlace::of(place));
+                Some(view)
+            }
+        };
     }
 
     /// Opens the command palette, or closes it.
@@ -67,6 +159,9 @@ impl Help {
 
     /// Closes one window. Returns true if one was open.
     pub(in crate::ui) fn close(&mut self) -> bool {
-        self.palette.take().is_some() || std::mem::take(&mut self.log_shown) || std::mem::take(&mut self.about_shown)
+        self.palette.take().is_some()
+            || self.documentation.take().is_some()
+            || std::mem::take(&mut self.log_shown)
+            || std::mem::take(&mut self.about_shown)
     }
 }

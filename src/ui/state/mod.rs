@@ -56,7 +56,7 @@ pub(in crate::ui) use file_dialog_kind::{
     BAKED, COPY_COMMAND, COPY_LAYOUT, DialogForm, EXPORTS, FileDialogKind, MESHES, NO_LAYOUT_PICTURE, PATTERN,
 };
 pub use help::Help;
-pub(in crate::ui) use help::{KeyClash, KeyList, Palette};
+pub(in crate::ui) use help::{DocumentationView, KeyClash, KeyList, Palette};
 pub use hull_stage::HullStage;
 pub(in crate::ui) use inset_view::{InsetKind, InsetPan, InsetSubject, InsetView};
 pub use page::{Alignment, Axis, GestureKind, PageRequest, Snap};

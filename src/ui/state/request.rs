@@ -99,6 +99,8 @@ pub enum Request {
     ToggleOutsideHull,
     /// Turns transitions between steps on or off.
     ToggleEase,
+    /// Picks and selects vertices behind the mesh, too, or no longer (X-ray).
+    ToggleThrough,
     /// Shows or hides hull and pockets of the virtual boundary.
     ToggleHull,
     /// Sets the displayed stage of the virtual boundary.
@@ -198,6 +200,8 @@ pub enum Request {
     ToggleWelcomeAtStart,
     /// Opens the command palette, or closes it.
     TogglePalette,
+    /// Opens the documentation at a place such as `window.md#pins`. Without a place, opens or closes it.
+    ShowDocumentation(Option<&'static str>),
     /// Shows or hides the messages of this run.
     ToggleLog,
     /// Shows or hides version, licence and reference of the program.

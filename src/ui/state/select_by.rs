@@ -13,6 +13,10 @@ pub enum SelectBy {
     Shrink,
     /// Adds faces until sharp edges.
     SharpEdges,
+    /// Goes straight on along edges.
+    Loops,
+    /// Goes across quadrilaterals, from edge to opposite edge.
+    Rings,
     /// Selects the boundary.
     Boundary,
     /// Selects the pins, or charts with pins.
@@ -23,12 +27,14 @@ pub enum SelectBy {
 
 impl SelectBy {
     /// All ways, in the order of the menu.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::All,
         Self::Invert,
         Self::Grow,
         Self::Shrink,
         Self::SharpEdges,
+        Self::Loops,
+        Self::Rings,
         Self::Boundary,
         Self::Pins,
         Self::Distorted,
@@ -37,7 +43,10 @@ impl SelectBy {
     /// Reason why the way does not apply to vertices, or to the charts of the page.
     pub(in crate::ui) const fn reason(self, is_on_page: bool) -> &'static str {
         match self {
-            Self::Grow | Self::Shrink | Self::SharpEdges | Self::Boundary if is_on_page => "Show one chart alone first",
+            Self::Grow | Self::Shrink | Self::SharpEdges | Self::Loops | Self::Rings | Self::Boundary if is_on_page => {
+                "Show one chart alone first"
+            }
+            Self::Loops | Self::Rings => "Select both ends of an edge first",
             Self::Grow | Self::Shrink | Self::SharpEdges => "Select vertices of the map first",
             Self::All | Self::Invert | Self::Boundary => "Open a mesh first",
             Self::Pins => "There are no pins",
@@ -56,6 +65,8 @@ impl SelectBy {
             Self::SharpEdges => {
                 ["Select up to sharp edges", "Faces that are reached from the selection without crossing a sharp edge"]
             }
+            Self::Loops => ["Select edge loops", "From each selected edge straight on, to its end or around"],
+            Self::Rings => ["Select edge rings", "From each selected edge across quadrilaterals to the opposite edge"],
             Self::Boundary => ["Select the boundary", "Vertices of the boundary, and of holes that were filled"],
             Self::Pins => ["Select the pins", "Vertices with pins, or charts with them"],
             Self::Distorted => {

@@ -1,0 +1,279 @@
+//! Pages of the book for users, which the window shows under Help, and a search in their sections.
+
+use std::sync::LazyLock;
+
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+macro_rules! pages {
+    ($($path:literal),* $(,)?) => {
+        [$(BookPage { path: $path, text: include_str!(concat!("../../book/src/", $path)) }),*]
+    };
+}
+
+/// Pages in the order of the book's summary.
+pub(in crate::ui) static PAGES: [BookPage; 26] = pages![
+    "introduction.md",
+    "why.md",
+    "tutorials.md",
+    "tutorials/first-flattening.md",
+    "tutorials/photo-on-a-face.md",
+    "tutorials/unwrap-a-model.md",
+    "tutorials/scan-with-holes.md",
+    "tutorials/many-charts.md",
+    "tutorials/repair-a-layout.md",
+    "tutorials/batch.md",
+    "tutorials/to-blender-and-back.md",
+    "window.md",
+    "command-line.md",
+    "methods.md",
+    "constraints.md",
+    "files.md",
+    "python.md",
+    "blender.md",
+    "limits.md",
+    "how/paper.md",
+    "how/linear-solves.md",
+    "how/planar-start.md",
+    "how/continuation.md",
+    "how/new-vertices.md",
+    "how/cutting.md",
+    "how/verdict.md",
+];
+
+/// Sections of all pages, in the order of the pages.
+static SECTIONS: LazyLock<Vec<Vec<Section>>> = LazyLock::new(|| PAGES.iter().map(BookPage::sections).collect());
+
+/// Greatest number of sections that a search returns.
+const MOST_FOUND: usize = 60;
+
+/// Page of the book.
+#[derive(Debug)]
+pub(in crate::ui) struct BookPage {
+    /// Path in the book, for example `how/paper.md`.
+    pub(in crate::ui) path: &'static str,
+    /// Markdown text.
+    text: &'static str,
+}
+
+/// Place in the book.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::ui) struct BookPlace {
+    /// Page, by its place in the list.
+    pub(in crate::ui) page: usize,
+    /// Anchor of a heading.
+    pub(in crate::ui) anchor: Option<String>,
+}
+
+impl BookPlace {
+    /// Place of a link such as `window.md#pins` from a page of this path. `None` if it leads to no page of the list.
+    fn of_link(link: &str, from: &str) -> Option<Self> {
+        let (path, anchor) = link.split_once('#').map_or((link, None), |(path, anchor)| (path, Some(anchor)));
+        let mut parts: Vec<&str> = from.split('/').collect();
+        parts.pop();
+        for part in path.split('/') {
+            match part {
+                ".." => drop(parts.pop()),
+                part => parts.push(part),
+            }
+        }
+        let path = parts.join("/");
+        let page = PAGES.iter().position(|page| page.path == path)?;
+        Some(Self { page, anchor: anchor.map(str::to_owned) })
+    }
+
+    /// Place of a path with an anchor, for example `window.md#pins`. Default: the first page.
+    pub(in crate::ui) fn of(path: &str) -> Self {
+        Self::of_link(path, "").unwrap_or(Self { page: 0, anchor: None })
+    }
+}
+
+/// Section of a page: its heading and its text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::ui) struct Section {
+    pub(in crate::ui) title: String,
+    pub(in crate::ui) anchor: String,
+    text: String,
+}
+
+/// Text of a page for the window, and the links to other pages.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::ui) struct ShownPage {
+    /// Markdown text: headings have their anchors, pictures are left out, and only links that lead somewhere stay links.
+    pub(in crate::ui) text: String,
+    /// Links as the text has them, with their places.
+    pub(in crate::ui) links: Vec<(String, BookPlace)>,
+}
+
+impl BookPage {
+    fn events(&self) -> impl Iterator<Item = (Event<'static>, std::ops::Range<usize>)> {
+        Parser::new_ext(self.text, Options::ENABLE_TABLES).into_offset_iter()
+    }
+
+    /// Title: the first heading.
+    fn title(&self) -> String {
+        self.sections().into_iter().next().map(|section| section.title).unwrap_or_default()
+    }
+
+    /// Sections in their order.
+    pub(in crate::ui) fn sections(&self) -> Vec<Section> {
+        let mut sections = vec![Section::default()];
+        let mut is_heading = false;
+        for (event, _) in self.events() {
+            match event {
+                Event::Start(Tag::Heading { .. }) => {
+                    sections.push(Section::default());
+                    is_heading = true;
+                }
+                Event::End(TagEnd::Heading(_)) => {
+                    let section = sections.last_mut().expect("a heading begins a section");
+                    section.anchor = anchor_of(&section.title);
+                    is_heading = false;
+                }
+                Event::Text(words) | Event::Code(words) => {
+                    let section = sections.last_mut().expect("the list begins with a section");
+                    let field = if is_heading { &mut section.title } else { &mut section.text };
+                    field.push_str(&words);
+                }
+                Event::SoftBreak | Event::HardBreak | Event::End(_) => {
+                    sections.last_mut().expect("the list begins with a section").text.push(' ');
+                }
+                _ => {}
+            }
+        }
+        sections.retain(|section| !section.title.is_empty());
+        sections
+    }
+
+    /// Page as the window shows it.
+    pub(in crate::ui) fn shown(&self) -> ShownPage {
+        let (mut edits, mut links) = (Vec::new(), Vec::new());
+        let mut sections = self.sections().into_iter();
+        // Start of the words of a link to nowhere.
+        let mut unlinked = None;
+        for (event, range) in self.events() {
+            match event {
+                Event::Start(Tag::Heading { .. }) => {
+                    let line = self.text[range.clone()].trim_end().len();
+                    let anchor = sections.next().map(|section| section.anchor).unwrap_or_default();
+                    edits.push((range.start + line..range.start + line, format!(" {{#{anchor}}}")));
+                }
+                Event::Start(Tag::Image { .. }) => edits.push((range, String::new())),
+                Event::Start(Tag::Link { dest_url, .. }) => {
+                    let is_elsewhere = dest_url.contains("://") || dest_url.starts_with('#');
+                    match BookPlace::of_link(&dest_url, self.path) {
+                        Some(place) => links.push((dest_url.to_string(), place)),
+                        None if !is_elsewhere => unlinked = Some(String::new()),
+                        None => {}
+                    }
+                }
+                Event::Text(words) | Event::Code(words) => {
+                    if let Some(text) = &mut unlinked {
+                        text.push_str(&words);
+                    }
+                }
+                Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, words))),
+                _ => {}
+            }
+        }
+        let mut text = self.text.to_owned();
+        for (range, words) in edits.into_iter().rev() {
+            text.replace_range(range, &words);
+        }
+        ShownPage { text, links }
+    }
+}
+
+/// Anchor of a heading, as the book has it.
+fn anchor_of(title: &str) -> String {
+    let kept = title.to_lowercase();
+    let kept = kept.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+/// Titles of the pages.
+pub(in crate::ui) static TITLES: LazyLock<Vec<String>> = LazyLock::new(|| PAGES.iter().map(BookPage::title).collect());
+
+/// Section that a search found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::ui) struct FoundSection {
+    pub(in crate::ui) place: BookPlace,
+    /// Title of the section.
+    pub(in crate::ui) title: String,
+}
+
+/// Sections that contain all words, in any order and case; those with all words in their titles come first.
+pub(in crate::ui) fn find_sections(query: &str) -> Vec<FoundSection> {
+    let query = query.to_lowercase();
+    let has_all = |text: &str| query.split_whitespace().all(|word| text.to_lowercase().contains(word));
+    let (mut by_title, mut by_text) = (Vec::new(), Vec::new());
+    for (page, sections) in SECTIONS.iter().enumerate() {
+        for Section { title, anchor, text } in sections {
+            let list = if has_all(title) { &mut by_title } else { &mut by_text };
+            if has_all(&format!("{title} {text}")) {
+                let place = BookPlace { page, anchor: Some(anchor.clone()) };
+                list.push(FoundSection { place, title: title.clone() });
+            }
+        }
+    }
+    by_title.append(&mut by_text);
+    by_title.truncate(MOST_FOUND);
+    by_title
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// Parts of the summary that the window leaves out.
+    const LEFT_OUT: [&str; 6] =
+        ["options.md", "rust.md", "batch.md", "benchmarks.md", "convergence.md", "contributing/"];
+
+    #[test]
+    fn the_pages_are_those_of_the_summary_in_its_order() {
+        let summary = include_str!("../../book/src/SUMMARY.md");
+        let listed: Vec<&str> = summary
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next())
+            .filter(|path| !LEFT_OUT.iter().any(|left_out| path.starts_with(left_out)))
+            .collect();
+        assert_eq!(PAGES.iter().map(|page| page.path).collect::<Vec<_>>(), listed);
+    }
+
+    #[test]
+    fn every_page_has_a_title_and_every_link_leads_to_a_section() {
+        let mut count = 0;
+        for page in &PAGES {
+            assert!(!page.title().is_empty(), "{}", page.path);
+            for (link, place) in page.shown().links {
+                count += 1;
+                let anchors: BTreeSet<String> = PAGES[place.page].sections().into_iter().map(|s| s.anchor).collect();
+                let is_there = place.anchor.as_ref().is_none_or(|anchor| anchors.contains(anchor));
+                assert!(is_there, "{}: {link}", page.path);
+            }
+        }
+        assert!(count > 30, "{count} links");
+    }
+
+    #[test]
+    fn a_shown_page_keeps_its_words_and_only_links_that_lead_somewhere() {
+        let page = BookPage {
+            path: "how/paper.md",
+            text: "# The *paper*\n\n![A picture](a.png)\n\n[pins](../window.md#pins), [`run`](../benchmarks.md), [x](#y)\n",
+        };
+        let ShownPage { text, links } = page.shown();
+        assert_eq!(text, "# The *paper* {#the-paper}\n\n\n\n[pins](../window.md#pins), run, [x](#y)\n");
+        let page = PAGES.iter().position(|page| page.path == "window.md").expect("a page");
+        assert_eq!(links, [("../window.md#pins".to_owned(), BookPlace { page, anchor: Some("pins".to_owned()) })]);
+    }
+
+    #[test]
+    fn a_search_finds_titles_first_and_needs_all_words() {
+        let found = find_sections("verdict");
+        assert!(found.len() > 5 && found[0].title.to_lowercase().contains("verdict"), "{found:?}");
+        let both = find_sections("verdict mirrored");
+        assert!(!both.is_empty() && both.len() < found.len());
+        assert!(find_sections("zebra crossing").is_empty());
+    }
+}

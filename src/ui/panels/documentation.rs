@@ -1,0 +1,103 @@
+//! Documentation window: the pages of the book at the right; their list, or what a search found, at the left.
+
+use eframe::egui::{self, Align2, FontFamily, FontId, Id, Role, ScrollArea, TextStyle};
+use egui_commonmark::CommonMarkViewer;
+
+use crate::ui::documentation::{BookPlace, TITLES, find_sections};
+use crate::ui::state::DocumentationView;
+use crate::ui::{Control, Editor, theme_of};
+
+/// Parts of the list, each with its first page.
+const PARTS: [(&str, usize); 3] = [("First steps", 0), ("Reference", 11), ("How it works", 19)];
+
+/// Size of the window, points.
+const SIZE: [f32; 2] = [920.0, 640.0];
+
+/// Share of the window for the list, and its limits, points.
+const LIST: (f32, [f32; 2]) = (0.28, [150.0, 240.0]);
+
+/// Size of the largest headings, points.
+const HEADING: f32 = 21.0;
+
+/// Shows the window if it is open.
+pub(super) fn documentation(context: &egui::Context, editor: &mut Editor) {
+    let Some(view) = &mut editor.layout.help.documentation else { return };
+    let mut is_open = true;
+    let room = context.content_rect().size() - egui::Vec2::new(48.0, 80.0);
+    let window = egui::Window::new("Documentation").open(&mut is_open).collapsible(false);
+    let window = window.default_size(room.min(SIZE.into())).max_size(room).pivot(Align2::CENTER_CENTER);
+    window.default_pos(context.content_rect().center()).show(context, |ui| {
+        let (share, [least, most]) = LIST;
+        let width = (share * ui.available_width()).clamp(least, most);
+        egui::Panel::left("documentation list").exact_size(width).resizable(false).show(ui, |ui| list(ui, view));
+        egui::CentralPanel::default().show(ui, |ui| page(ui, view));
+    });
+    if !is_open {
+        editor.layout.help.documentation = None;
+    }
+}
+
+/// Search field, and the pages or the sections found.
+fn list(ui: &mut egui::Ui, view: &mut DocumentationView) {
+    let field = egui::TextEdit::singleline(&mut view.query).hint_text("Find").desired_width(f32::INFINITY);
+    let field = ui.add(field).named(Role::SearchInput, "Find in the documentation");
+    if !std::mem::replace(&mut view.has_focus, true) {
+        field.request_focus();
+    }
+    if field.changed() {
+        view.found = find_sections(&view.query);
+    }
+    ui.add_space(4.0);
+    let is_search = !view.query.trim().is_empty();
+    let mut goal = None;
+    ScrollArea::vertical().id_salt("list").auto_shrink(false).show(ui, |ui| {
+        if is_search && view.found.is_empty() {
+            ui.label("No section has all these words.");
+        }
+        for section in view.found.iter().filter(|_| is_search) {
+            let name = format!("{}: {}", TITLES[section.place.page], section.title);
+            let entry = ui.selectable_label(false, &section.title).named(Role::Button, &name);
+            if entry.on_hover_text(&TITLES[section.place.page]).clicked() {
+                goal = Some(section.place.clone());
+            }
+        }
+        for (place, title) in TITLES.iter().enumerate().filter(|_| !is_search) {
+            if let Some((part, _)) = PARTS.iter().find(|(_, first)| *first == place) {
+                ui.add_space(4.0);
+                ui.strong(*part);
+            }
+            if ui.selectable_label(view.place() == place, title).clicked() {
+                goal = Some(BookPlace { page: place, anchor: None });
+            }
+        }
+    });
+    if let Some(goal) = goal {
+        view.go_to(goal);
+    }
+}
+
+/// Page, from the heading that was asked for.
+fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
+    if view.can_go_back() && ui.button("Back").on_hover_text("Return to the page before").clicked() {
+        view.go_back();
+    }
+    let id = Id::unique("documentation page").with(view.place());
+    let mut area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
+    match view.take_goal() {
+        Some(Some(anchor)) => view.cache.scroll_to_heading(&id, Some(anchor)),
+        Some(None) => area = area.vertical_scroll_offset(0.0),
+        None => {}
+    }
+    area.show(ui, |ui| {
+        // Without it, links have the colour of links.
+        ui.visuals_mut().override_text_color = None;
+        ui.visuals_mut().widgets.noninteractive.fg_stroke.color = theme_of(ui).text;
+        ui.style_mut().text_styles.insert(TextStyle::Heading, FontId::new(HEADING, FontFamily::Proportional));
+        let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
+        viewer.show_with_id(id, ui, &mut view.cache, &view.shown.text);
+    });
+    let clicked = view.shown.links.iter().find(|(link, _)| view.cache.get_link_hook(link) == Some(true));
+    if let Some((_, place)) = clicked.cloned() {
+        view.go_to(place);
+    }
+}
