@@ -133,9 +133,10 @@ def _mesh(mesh: Any, with_uv: bool) -> Any:
 
 def _pixels(old: Any, picture: Any) -> np.ndarray:
     if picture is None:
-        picture = _freebound.picture_of(old)
-        if picture is None:
+        pixels = _freebound.picture_of(old)
+        if pixels is None:
             raise OptionError("picture: the materials of the old mesh name none: pass one")
+        return pixels
     if isinstance(picture, (str, os.PathLike)):
         return _freebound.read_picture(os.fspath(picture))
     pixels = np.asarray(picture)

@@ -9,7 +9,7 @@ use freebound_io::raster::write_png;
 use freebound_io::{
     BakeOptions, BakedPicture, FaultReport, FileForm, Materials, MeshFile, OutputKind, PaintedSurface, PictureFile,
     Precision, Registration, Report, TextureError, TextureMesh, TransferError, TransferReport, TransferredFile,
-    WriteError, copied_texture, material_pictures, write_atomically,
+    WriteError, copied_texture, material_picture, write_atomically,
 };
 use numpy::{PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray3};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
@@ -184,11 +184,15 @@ pub(crate) fn read_picture(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, 
     pixels(py, &picture.pixels)
 }
 
-/// File of the picture that the materials of a mesh show on most faces, or None.
+/// Colours of the picture that the materials of a mesh show on most faces, shape (height, width, 4), or None.
 #[pyfunction]
-pub(crate) fn picture_of(mesh: &Mesh) -> Option<PathBuf> {
+pub(crate) fn picture_of<'py>(py: Python<'py>, mesh: &Mesh) -> PyResult<Option<Bound<'py, PyArray3<u8>>>> {
     let path: Option<&Path> = mesh.path();
-    path.and_then(|path| material_pictures(&mesh.file, path).into_iter().next())
+    let Some(path) = path else { return Ok(None) };
+    let Some(picture) = material_picture(&mesh.file, path) else { return Ok(None) };
+    let read = py.detach(|| PictureFile::read_for(&mesh.file, path, &picture));
+    let picture = read.map_err(|error| errors::input_error(py, error, &[]))?;
+    pixels(py, &picture.pixels).map(Some)
 }
 
 /// Largest margin, pixels.

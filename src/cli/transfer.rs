@@ -173,7 +173,7 @@ fn picture_of(arguments: &BakeArguments, old: &Model) -> Result<PictureFile, Com
         let text = format!("{}: its materials name no picture: add --picture FILE", name_of_input(&arguments.old));
         return Err(CommandError::Usage(text));
     };
-    Ok(PictureFile::read(path)?)
+    Ok(PictureFile::read_for(&old.source, &arguments.old, path)?)
 }
 
 /// Faces of a file that have texture coordinates.

@@ -1,6 +1,6 @@
 //! Landmarks of the picture as pins. They move the pins of their names, and wait for a vertex if there is no such pin.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -10,9 +10,10 @@ use super::edits::pin;
 use super::in_use::Role;
 use super::landmarks::{Landmarks, WaitingLandmark, names_after, turned, waiting};
 use super::{Command, Message, MessagePlace, Session, Written};
-use freebound_core::pipeline::{Target, Targets};
+use freebound_core::pipeline::Targets;
 use freebound_io::{
-    LandmarkSet, PictureLandmark, PinName, PinNotes, PtsError, in_order_of_a_set, read_pts, write_durably, write_pts,
+    LandmarkSet, PictureLandmark, PinName, PinNotes, PtsError, in_order_of_a_set, read_pts, targets_at_landmarks,
+    write_durably, write_pts,
 };
 
 /// Size of a picture that leaves coordinates in pixels.
@@ -75,15 +76,10 @@ impl Session {
 
     /// Targets that landmarks of their names move.
     fn moved_to_landmarks(&self, targets: &Targets, notes: &PinNotes) -> Targets {
-        let places: BTreeMap<String, DVec2> = self.landmarks().iter().map(|it| (it.name.key(), it.place)).collect();
         let v_axis = self.document.v_axis;
-        let moved = notes.iter().filter_map(|(&vertex, note)| {
-            let place = *places.get(&note.name.as_ref()?.key())?;
-            let before = *targets.get(&vertex)?;
-            let target = Target { uv: turned(place, v_axis), ..before };
-            (target != before).then_some((vertex, target))
-        });
-        moved.collect()
+        let mut moved = targets_at_landmarks(targets, notes, self.landmarks(), |place| turned(place, v_axis));
+        moved.retain(|vertex, target| targets.get(vertex) != Some(target));
+        moved
     }
 
     /// Number of imported landmarks.

@@ -99,7 +99,7 @@ impl Opened {
         let model = read_model(path, Preparation::default(), memory)?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
-            let found = PictureFile::read(&picture);
+            let found = PictureFile::read_for(&model.source, path, &picture);
             found
                 .map_err(|error| remarks.push(picture_remark(&picture, error.to_string(), "open another picture")))
                 .ok()
@@ -151,7 +151,7 @@ impl Opened {
         let model = mesh.with_chart(project.chart);
         let form = with_seams_there_are(&asked, &model, &mut remarks);
         let model = model.asking_for(form.clone());
-        let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
+        let picture = project.picture.as_ref().and_then(|source| project_picture(source, &model, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.pins.targets.len());
         let pins = pins_there_are(project.pins, &model, &mut remarks);
         let is_partial = pins.targets.len() < pin_count || form != asked;
@@ -243,13 +243,17 @@ fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option
     })
 }
 
-fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<Arc<PictureFile>> {
+fn project_picture(source: &ProjectSource, model: &Model, remarks: &mut Vec<Message>) -> Option<Arc<PictureFile>> {
     match source {
         ProjectSource::Example(name) => example_called(name).and_then(Example::picture_file),
         ProjectSource::File { path, stamp } => {
             let remedy = "open another picture, or repair this one and open the project again";
             let picture = if path.exists() {
-                PictureFile::read(path).map_err(|error| error.to_string())
+                let read = match &model.path {
+                    Some(mesh) => PictureFile::read_for(&model.source, mesh, path),
+                    None => PictureFile::read(path),
+                };
+                read.map_err(|error| error.to_string())
             } else {
                 Err(format!("{}: the picture of the project does not exist", path.display()))
             };

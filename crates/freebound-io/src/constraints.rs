@@ -29,17 +29,28 @@ pub struct Constraints {
 impl Constraints {
     /// Moves targets to the landmarks of their names. v points up. Returns the number of targets with such a name.
     pub fn move_to(&mut self, landmarks: &[PictureLandmark]) -> usize {
-        let places: BTreeMap<String, DVec2> = landmarks.iter().map(|it| (it.name.key(), it.place)).collect();
-        let mut count = 0;
-        for (vertex, note) in &self.notes {
-            let place = note.name.as_ref().and_then(|name| places.get(&name.key()));
-            if let (Some(place), Some(target)) = (place, self.targets.get_mut(vertex)) {
-                target.uv = DVec2::new(place.x, 1.0 - place.y);
-                count += 1;
-            }
-        }
+        let at_landmarks =
+            targets_at_landmarks(&self.targets, &self.notes, landmarks, |place| DVec2::new(place.x, 1.0 - place.y));
+        let count = at_landmarks.len();
+        self.targets.extend(at_landmarks);
         count
     }
+}
+
+/// Targets with the names of landmarks, at those landmarks. `uv_of` gives the texture coordinates of a place of the
+/// picture: distances from its left and upper side, as shares of its size.
+pub fn targets_at_landmarks(
+    targets: &Targets,
+    notes: &PinNotes,
+    landmarks: &[PictureLandmark],
+    uv_of: impl Fn(DVec2) -> DVec2,
+) -> Targets {
+    let places: BTreeMap<String, DVec2> = landmarks.iter().map(|it| (it.name.key(), it.place)).collect();
+    let at_landmark = |(&vertex, note): (&VertexId, &PinNote)| {
+        let place = *places.get(&note.name.as_ref()?.key())?;
+        Some((vertex, Target { uv: uv_of(place), ..*targets.get(&vertex)? }))
+    };
+    notes.iter().filter_map(at_landmark).collect()
 }
 
 /// Failure to read a constraint file.

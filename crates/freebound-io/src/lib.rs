@@ -102,7 +102,7 @@ pub use comparison::{
     Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,
     MethodReport, MethodSeconds, MorphReport, ResultReport, TimedStep, VerdictCounts,
 };
-pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
+pub use constraints::{ConstraintFault, Constraints, ConstraintsError, targets_at_landmarks, write_constraints};
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edge_costs, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use file_data::FileData;

@@ -1,18 +1,15 @@
 //! Pictures in: PNG and JPEG.
 
-use std::fs;
-use std::io::{BufRead, Cursor, Read as _, Seek};
+use std::io::{BufRead, Cursor, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use image::ImageReader;
 
 use super::FileStamp;
-use super::gltf::pictures::picture_in;
+use super::gltf::pictures::picture_within;
+use super::mesh_file::{MeshFile, is_gltf, read_mesh};
 use freebound_core::geom::Picture;
-
-/// Number of bytes that tell glTF from a picture.
-const HEAD: u64 = 64;
 
 /// Failure to read a picture.
 #[derive(Debug, thiserror::Error)]
@@ -45,12 +42,25 @@ impl PictureFile {
     /// If the file cannot be read, or is neither PNG nor JPEG, or a glTF file without such a picture.
     pub fn read(path: &Path) -> Result<Self, PictureError> {
         let pixels = if is_gltf(path) {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            let bytes = fs::read(path).map_err(|error| error.to_string());
-            bytes.and_then(|bytes| picture_in(bytes, folder)).and_then(|bytes| decode_picture(&bytes))
+            let mesh = read_mesh(path).map_err(|error| error.to_string());
+            mesh.and_then(|mesh| decode_within(&mesh, path))
         } else {
             ImageReader::open(path).map_err(|error| error.to_string()).and_then(decode)
         };
+        Self::of(path, pixels)
+    }
+
+    /// Reads a picture like [`read`](Self::read), with the mesh that was read from `mesh_path` at hand: if the picture
+    /// is within the same file, that file is not read again.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`read`](Self::read).
+    pub fn read_for(mesh: &MeshFile, mesh_path: &Path, path: &Path) -> Result<Self, PictureError> {
+        if mesh_path == path { Self::of(path, decode_within(mesh, path)) } else { Self::read(path) }
+    }
+
+    fn of(path: &Path, pixels: Result<Picture, String>) -> Result<Self, PictureError> {
         let pixels = pixels.map_err(|reason| PictureError { path: path.to_owned(), reason })?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         Ok(Self { name, path: Some(path.to_owned()), stamp: FileStamp::read(path).ok(), pixels: Arc::new(pixels) })
@@ -67,13 +77,10 @@ impl PictureFile {
     }
 }
 
-/// True for a glTF file, by its first bytes, as meshes are recognised.
-fn is_gltf(path: &Path) -> bool {
-    let mut head = Vec::new();
-    // Only regular files are opened: reading a pipe could block for ever.
-    let file = fs::File::open(path).ok().filter(|_| path.is_file());
-    let read = file.and_then(|file| file.take(HEAD).read_to_end(&mut head).ok());
-    read.is_some() && (head.starts_with(b"glTF") || head.trim_ascii_start().starts_with(b"{"))
+/// Picture that most triangles of a mesh from a glTF file show.
+fn decode_within(mesh: &MeshFile, path: &Path) -> Result<Picture, String> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    picture_within(mesh, folder).and_then(|bytes| decode_picture(&bytes))
 }
 
 /// Decodes the bytes of a PNG or JPEG file.

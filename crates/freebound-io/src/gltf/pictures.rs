@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::container::{beside, embedded};
-use super::read::parse_gltf;
 use super::scene::Scene;
-use crate::mesh_file::{Instances, MeshFile, Source, SourceFormat};
+use crate::mesh_file::{MeshFile, Source, SourceFormat};
 
 /// Extension that moves a picture on its faces.
 const MOVED: &str = "KHR_texture_transform";
@@ -27,9 +26,8 @@ pub(crate) fn pictures_of(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     shown_images(&json, scene).into_iter().map(|image| file(image).unwrap_or_else(|| path.to_owned())).collect()
 }
 
-/// Bytes of the picture with the most triangles of a glTF file. Fails with the reason as text.
-pub(crate) fn picture_in(bytes: Vec<u8>, folder: &Path) -> Result<Vec<u8>, String> {
-    let mesh = parse_gltf(bytes, Some(folder), Instances::default()).map_err(|error| error.to_string())?;
+/// Bytes of the picture with the most triangles of a mesh from a glTF file in a folder. Fails with the reason as text.
+pub(crate) fn picture_within(mesh: &MeshFile, folder: &Path) -> Result<Vec<u8>, String> {
     let none = "its materials show no picture";
     let Some(Source { format: SourceFormat::Gltf(scene), bytes, .. }) = &mesh.source else { return Err(none.into()) };
     let json: Value = serde_json::from_slice(&scene.json).unwrap_or_default();
@@ -57,9 +55,7 @@ fn shown_images(json: &Value, scene: &Scene) -> Vec<usize> {
     let parts = &scene.shown.parts;
     for (number, part) in parts.iter().enumerate() {
         let end = parts.get(number + 1).map_or(scene.corners.len() / 3, |next| next.first_face);
-        let mesh = scene.shown.instances[part.instance].mesh;
-        let material = &json["meshes"][mesh]["primitives"][part.primitive]["material"];
-        if let Some(image) = image_of(json, material) {
+        if let Some(image) = image_of(json, scene.material_of(json, part)) {
             *faces_of.entry(image).or_default() += end.saturating_sub(part.first_face);
         }
     }

@@ -153,16 +153,19 @@ impl Scene {
     /// Label for each face, equal for faces of one material; `None` if no primitive has a material.
     pub(crate) fn material_labels(&self, face_count: usize) -> Option<Vec<u32>> {
         let json: Value = serde_json::from_slice(&self.json).ok()?;
-        let material = |part: &Part| {
-            let mesh = self.shown.instances[part.instance].mesh;
-            json["meshes"][mesh]["primitives"][part.primitive]["material"].as_u64()
-        };
-        let materials: Vec<Option<u64>> = self.shown.parts.iter().map(material).collect();
+        let materials: Vec<Option<u64>> =
+            self.shown.parts.iter().map(|part| self.material_of(&json, part).as_u64()).collect();
         let mut numbers: Vec<Option<u64>> = materials.clone();
         numbers.sort_unstable();
         numbers.dedup();
         let label = |part: usize| numbers.binary_search(&materials[part]).expect("each material is in the list");
         materials.iter().any(Option::is_some).then(|| self.labels(face_count, label))
+    }
+
+    /// Number of the material of a part in the text of the file. Null if it has none.
+    pub(super) fn material_of<'a>(&self, json: &'a Value, part: &Part) -> &'a Value {
+        let mesh = self.shown.instances[part.instance].mesh;
+        &json["meshes"][mesh]["primitives"][part.primitive]["material"]
     }
 
     /// Label for each face, equal for faces of one instance, which belongs to one node.

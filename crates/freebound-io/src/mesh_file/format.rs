@@ -1,5 +1,9 @@
 //! Formats of mesh files, recognised by a file's first bytes, or else by its extension.
 
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
 use super::ReadError;
 use super::stl::is_binary_stl;
 use crate::obj::{Lines, split_mark, words};
@@ -48,10 +52,10 @@ impl Format {
         if let Some((_, name)) = MARKS.iter().find(|(mark, _)| head.starts_with(mark)) {
             return Err(ReadError::NotReadYet(name));
         }
-        let text = split_mark(head).1;
-        if head.starts_with(b"glTF") || text.trim_ascii_start().starts_with(b"{") {
+        if begins_gltf(head) {
             return Ok(Some(Self::Gltf));
         }
+        let text = split_mark(head).1;
         let word = Lines::of(text).find_map(|line| words(&line.whole[..line.length]).next()).unwrap_or_default();
         Ok(match word {
             b"ply" => Some(Self::Ply),
@@ -64,6 +68,22 @@ impl Format {
             },
         })
     }
+}
+
+/// Number of bytes that tell glTF from a picture.
+const HEAD_OF_GLTF: u64 = 64;
+
+/// True for a glTF file, by its first bytes. False if it cannot be read.
+pub(crate) fn is_gltf(path: &Path) -> bool {
+    let mut head = Vec::new();
+    // Only regular files are opened: reading a pipe could block for ever.
+    let file = File::open(path).ok().filter(|_| path.is_file());
+    let read = file.and_then(|file| file.take(HEAD_OF_GLTF).read_to_end(&mut head).ok());
+    read.is_some() && begins_gltf(&head)
+}
+
+fn begins_gltf(head: &[u8]) -> bool {
+    head.starts_with(b"glTF") || split_mark(head).1.trim_ascii_start().starts_with(b"{")
 }
 
 /// First bytes of unsupported files.
