@@ -32,11 +32,13 @@
 //! | `report_file` | writing of report files                                                  |
 //! | `awaited`     | report file of the current run                                           |
 //! | `transfer`    | commands `transfer` and `bake`: layouts and pictures of other meshes     |
+//! | `carry`       | command `carry`: constraints of another mesh                             |
 //! | `threads`     | number of threads of a run                                               |
 
 mod args;
 mod awaited;
 mod batch;
+mod carry;
 mod check;
 mod compare;
 mod error;
@@ -72,10 +74,10 @@ use self::failed::ReportTarget;
 use freebound_core::problem::{Family, Labels, Method, NamedOption};
 
 pub use args::{
-    Arguments, BakeArguments, BatchArguments, BatchCommand, BatchFormat, CompareArguments, ComparisonFile,
-    CompletionsArguments, Cut, ExampleArguments, FlattenArguments, ManArguments, MeshArguments, PackArguments,
-    PatternArguments, SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments, TransferArguments,
-    TypedShape, UnwrapArguments,
+    Arguments, BakeArguments, BatchArguments, BatchCommand, BatchFormat, CarryArguments, CompareArguments,
+    ComparisonFile, CompletionsArguments, Cut, ExampleArguments, FlattenArguments, ManArguments, MeshArguments,
+    PackArguments, PatternArguments, SolveArguments, StartOf, StudyArguments, Subcommands, ThreadArguments,
+    TransferArguments, TypedShape, UnwrapArguments,
 };
 pub use error::{CommandError, CommandOutcome, Remedy};
 pub use figures::pairs;
@@ -97,6 +99,7 @@ pub fn run(command: &Subcommands, form: ProgressForm) -> ExitCode {
             (transfer::run(arguments), Some((&arguments.mesh, &arguments.result.report)))
         }
         Subcommands::Bake(arguments) => (transfer::run_bake(arguments), Some((&arguments.new, &arguments.report))),
+        Subcommands::Carry(arguments) => (carry::run(arguments), Some((&arguments.new, &arguments.report))),
         Subcommands::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Subcommands::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Subcommands::Batch(arguments) => (batch::run(arguments), None),

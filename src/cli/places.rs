@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{
-    BakeArguments, CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, MeshOutputArguments,
-    PackArguments, SolveArguments, StartOf, StudyArguments, TransferArguments,
+    BakeArguments, CarryArguments, CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments,
+    MeshOutputArguments, PackArguments, SolveArguments, StartOf, StudyArguments, TransferArguments,
 };
 use super::error::CommandError;
 use super::error::is_standard;
@@ -60,6 +60,10 @@ impl OutputPaths {
     }
 
     pub(super) fn of_bake(arguments: &BakeArguments) -> Self {
+        Self::of([("-o", Some(arguments.output.as_path())), ("--report", arguments.report.as_deref())])
+    }
+
+    pub(super) fn of_carry(arguments: &CarryArguments) -> Self {
         Self::of([("-o", Some(arguments.output.as_path())), ("--report", arguments.report.as_deref())])
     }
 

@@ -15,8 +15,9 @@ use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedPro
 use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
 use freebound_core::verify::{Conflict, DistortionSummary, Finding, FindingSeverity, Verdict};
 use freebound_io::{
-    BakeReport, ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output,
-    Report, SeamsReport, Seconds, StepReport, TransferReport,
+    BakeReport, CarriedConstraints, CarriedVertex, CarryReport, ChartNumber, ChartReport, Column, ComparisonReport,
+    ComparisonSeconds, MeshReport, MorphReport, Output, PinNotes, Report, SeamsReport, Seconds, StepReport,
+    TransferReport,
 };
 
 /// Symmetric Dirichlet energy above which a map is badly distorted: twice that of an isometric map.
@@ -24,6 +25,9 @@ const BAD_ENERGY: f64 = 8.0;
 
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
+
+/// Maximum number of carried constraints that are listed.
+const MOST_CARRIED: usize = 40;
 
 /// List of elements, shortened if there are many.
 fn listed(elements: &[impl Display]) -> String {
@@ -316,6 +320,37 @@ pub(super) fn bake_summary(report: &Report, picture: &Path, [width, height]: [u3
     let Seconds { read, solve, write, total, .. } = report.seconds;
     lines.push(format!("{total:.3} s: read {read:.3}, draw {solve:.3}, write {write:.3}"));
     lines.join("\n")
+}
+
+/// Summary of carried constraints: both vertices of each, for a look at the correspondence.
+pub(super) fn carry_summary(report: &Report, carried: &CarriedConstraints, notes: &PinNotes) -> String {
+    let CarryReport { same_faces, count, lost, largest_distance, diagonal } = &carried.report;
+    let mut lines: Vec<String> =
+        carried.moves.iter().take(MOST_CARRIED).map(|it| carried_words(it, notes, *diagonal)).collect();
+    lines.extend(
+        (carried.moves.len() > MOST_CARRIED).then(|| format!("and {} more", carried.moves.len() - MOST_CARRIED)),
+    );
+    lines.extend(file_words(&report.mesh));
+    let counted = counted(*count, "constraint", "constraints");
+    lines.push(match same_faces {
+        true => format!("{counted} carried: the faces are equal, so vertices keep their numbers"),
+        false => format!("{counted} carried, at most {:.2} % of the size away", 100.0 * largest_distance / diagonal),
+    });
+    lines.extend((!lost.is_empty()).then(|| format!("lost: {}: others took the vertices near them", listed(lost))));
+    lines.extend(carried.report.is_apart().then(|| APART.to_owned()));
+    lines.join("\n")
+}
+
+/// Line of a carried constraint.
+fn carried_words(carried: &CarriedVertex, notes: &PinNotes, diagonal: f64) -> String {
+    let name = notes.get(&carried.from).and_then(|note| note.name.as_ref());
+    let name = name.map(|name| format!(" ({name})")).unwrap_or_default();
+    match carried.to {
+        Some(to) => {
+            format!("{}{name} -> {to}, {:.2} % of the size away", carried.from, 100.0 * carried.distance / diagonal)
+        }
+        None => format!("{}{name} is lost", carried.from),
+    }
 }
 
 /// Advice on a badly distorted map, if it is planar.

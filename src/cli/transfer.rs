@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &TransferArguments) -> Result<CommandOutcome, Comma
 }
 
 /// Refuses two inputs from standard input.
-fn refuse_two_streams(first: &Path, second: &Path) -> Result<(), CommandError> {
+pub(super) fn refuse_two_streams(first: &Path, second: &Path) -> Result<(), CommandError> {
     if is_standard(first) && is_standard(second) {
         let text = "standard input: it cannot be both meshes: name a file for one of them";
         return Err(CommandError::Usage(text.to_owned()));

@@ -7,6 +7,7 @@ use super::background_jobs::{BackgroundJob, FORMING, RESHAPING};
 use super::edits::pin;
 use super::landmarks::has_landmarks;
 use super::open_mesh::Near;
+use super::opened::is_project;
 use super::{Command, Message, MessagePlace, Session};
 use crate::examples::Example;
 use freebound_io::{Constraints, ConstraintsError, PictureFile};
@@ -27,7 +28,7 @@ impl Session {
         });
     }
 
-    /// Reads constraints, or landmarks of the picture, in the background. They belong to the mesh that is being opened,
+    /// Reads constraints, landmarks of the picture, or the constraints of a project, in the background. They belong to the mesh that is being opened,
     /// else to the open one.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
         if self.files.is_loading() {
@@ -38,6 +39,9 @@ impl Session {
         }
         if self.model().is_none() {
             return self.complain("constraints need a mesh: open one first", None);
+        }
+        if is_project(&path) {
+            return self.carry_constraints(path);
         }
         let count = self.model().map_or(0, |model| model.vertex_count_in_file());
         self.jobs.send("reading the constraints", move |_| {
@@ -76,6 +80,7 @@ impl Session {
                 self.take_constraints(constraints);
             }
             BackgroundJob::Constraints { path, read: Err(error) } => self.tell_constraints(&path, &error),
+            BackgroundJob::Carried { path, mesh, read } => self.take_carried(&path, &mesh, read),
             BackgroundJob::Landmarks { path, read } => self.take_landmarks(&path, read),
             BackgroundJob::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
             BackgroundJob::Flat(flat) => self.take_flat(&flat),
@@ -103,7 +108,7 @@ impl Session {
         self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
     }
 
-    fn take_constraints(&mut self, Constraints { targets, notes, .. }: Constraints) {
+    pub(super) fn take_constraints(&mut self, Constraints { targets, notes, .. }: Constraints) {
         if targets.is_empty() {
             return self.complain("the file has no constraints", None);
         }

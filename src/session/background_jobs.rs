@@ -3,8 +3,10 @@
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::carried_pins::{CarriedPins, CarryError};
 use super::layout_of_other::{LayoutOfOther, LayoutOfOtherError};
 use super::reshaping::Reshaped;
 use super::{Background, JobFailure, Model, Wake};
@@ -37,6 +39,8 @@ pub(super) enum BackgroundJob {
     Constraints { path: PathBuf, read: Result<Constraints, ConstraintsError> },
     /// Landmarks of the picture in pixels, read from a file.
     Landmarks { path: PathBuf, read: Result<Vec<PictureLandmark>, PtsError> },
+    /// Constraints of a project, carried to a mesh.
+    Carried { path: PathBuf, mesh: Arc<Model>, read: Result<CarriedPins, CarryError> },
     /// Seams for the open mesh, read from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
     /// Layout of another mesh file on the open mesh.

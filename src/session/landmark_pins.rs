@@ -1,6 +1,5 @@
 //! Landmarks of the picture as pins. They move the pins of their names, and wait for a vertex if there is no such pin.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
@@ -92,10 +91,7 @@ impl Session {
         if self.landmarks().is_empty() {
             return Vec::new();
         }
-        let elsewhere = self.document.elsewhere.values().flat_map(|edits| edits.notes.values());
-        let notes = self.document.notes.values().chain(elsewhere);
-        let taken: BTreeSet<String> = notes.filter_map(|note| note.name.as_ref()).map(PinName::key).collect();
-        waiting(self.landmarks(), &taken, self.document.v_axis)
+        waiting(self.landmarks(), &self.taken_names(), self.document.v_axis)
     }
 
     /// Waiting landmark with exactly these texture coordinates.

@@ -11,6 +11,8 @@
 //! | `queries`            | queries that the parts answer                                          |
 //! | `edits`              | edits of the document                                                  |
 //! | `page_actions`       | moves, packing, stacks and locks of charts on the page                 |
+//! | `carried_pins`       | constraints of a project for another mesh                              |
+//! | `carrying`           | constraints of a project on the open mesh                              |
 //! | `chart_actions`      | shown chart, charts in the background, and their layout                |
 //! | `comparison_actions` | compared methods, and the morph between two of them                    |
 //! | `dragging`           | frames of a drag of pins                                               |
@@ -74,6 +76,8 @@ mod atlas_view;
 mod background;
 mod background_jobs;
 mod brushing;
+mod carried_pins;
+mod carrying;
 mod chart_actions;
 mod chart_layout;
 mod chart_targets;

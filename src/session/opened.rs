@@ -92,8 +92,7 @@ impl Opened {
     /// Opens a project or a mesh file, by the extension of its name. `memory` is the machine's memory in bytes; at most
     /// half of it may be used. `None` means no limit.
     pub(super) fn read(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
-        let is_project = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(PROJECT_EXTENSION));
-        if is_project {
+        if is_project(path) {
             return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()), memory);
         }
         let model = read_model(path, Preparation::default(), memory)?;
@@ -183,6 +182,11 @@ impl Opened {
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
         Ok(Self { model, document, view, origin, restored, remarks, missing_picture, is_partial })
     }
+}
+
+/// True for the path of a project, by its extension.
+pub(super) fn is_project(path: &Path) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(PROJECT_EXTENSION))
 }
 
 /// Project with a file in place of a missing one. The stamp stays that of the missing file.
@@ -280,7 +284,7 @@ fn has_changed(before: Option<&FileStamp>, now: Option<&FileStamp>) -> bool {
     before.zip(now).is_some_and(|(before, now)| before != now)
 }
 
-fn example_called(name: &str) -> Option<Example> {
+pub(super) fn example_called(name: &str) -> Option<Example> {
     Example::ALL.into_iter().find(|example| example.name() == name)
 }
 

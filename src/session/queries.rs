@@ -1,5 +1,6 @@
 //! Queries to the session that its parts answer.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -247,6 +248,13 @@ impl Session {
     /// Name of a pin of the mesh or chart.
     pub fn pin_name(&self, vertex: VertexId) -> Option<&PinName> {
         self.document.notes.get(&vertex)?.name.as_ref()
+    }
+
+    /// Names of the pins of all charts, by their [keys](PinName::key).
+    pub fn taken_names(&self) -> BTreeSet<String> {
+        let elsewhere = self.document.elsewhere.values().flat_map(|edits| edits.notes.values());
+        let notes = self.document.notes.values().chain(elsewhere);
+        notes.filter_map(|note| note.name.as_ref()).map(PinName::key).collect()
     }
 
     /// Number of a vertex, with the name of its pin if it has one.

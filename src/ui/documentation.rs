@@ -1,5 +1,6 @@
 //! Pages of the book for users, which the window shows under Help, and a search in their sections.
 
+use std::ops::Range;
 use std::sync::LazyLock;
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
@@ -39,6 +40,10 @@ pub(in crate::ui) static PAGES: [BookPage; 26] = pages![
     "how/cutting.md",
     "how/verdict.md",
 ];
+
+/// Characters that the fonts of the window lack, and how they are written there.
+const WITHOUT_GLYPH: [(char, &str); 6] =
+    [('ᵀ', "^T"), ('ᴴ', "^H"), ('ᵖ', "^p"), ('ᵢ', "_i"), ('ⱼ', "_j"), ('\u{304}', "")];
 
 /// Sections of all pages, in the order of the pages.
 static SECTIONS: LazyLock<Vec<Vec<Section>>> = LazyLock::new(|| PAGES.iter().map(BookPage::sections).collect());
@@ -95,17 +100,25 @@ pub(in crate::ui) struct Section {
     text: String,
 }
 
-/// Text of a page for the window, and the links to other pages.
+/// Part of a page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum PagePart {
+    /// Markdown text: headings have their anchors, pictures are left out, and only links that lead somewhere stay links.
+    Text(String),
+    /// Lines of code.
+    Code(String),
+}
+
+/// Page for the window, and the links to other pages.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) struct ShownPage {
-    /// Markdown text: headings have their anchors, pictures are left out, and only links that lead somewhere stay links.
-    pub(in crate::ui) text: String,
+    pub(in crate::ui) parts: Vec<PagePart>,
     /// Links as the text has them, with their places.
     pub(in crate::ui) links: Vec<(String, BookPlace)>,
 }
 
 impl BookPage {
-    fn events(&self) -> impl Iterator<Item = (Event<'static>, std::ops::Range<usize>)> {
+    fn events(&self) -> impl Iterator<Item = (Event<'static>, Range<usize>)> {
         Parser::new_ext(self.text, Options::ENABLE_TABLES).into_offset_iter()
     }
 
@@ -146,41 +159,64 @@ impl BookPage {
 
     /// Page as the window shows it.
     pub(in crate::ui) fn shown(&self) -> ShownPage {
-        let (mut edits, mut links) = (Vec::new(), Vec::new());
+        let mut shown = ShownPage::default();
+        let mut edits: Vec<(Range<usize>, PagePart)> = Vec::new();
         let mut sections = self.sections().into_iter();
-        // Start of the words of a link to nowhere.
-        let mut unlinked = None;
+        // Words of a link to nowhere, and lines of code, as far as they are read.
+        let (mut unlinked, mut code) = (None, None);
         for (event, range) in self.events() {
             match event {
                 Event::Start(Tag::Heading { .. }) => {
-                    let line = self.text[range.clone()].trim_end().len();
+                    let end = range.start + self.text[range].trim_end().len();
                     let anchor = sections.next().map(|section| section.anchor).unwrap_or_default();
-                    edits.push((range.start + line..range.start + line, format!(" {{#{anchor}}}")));
+                    edits.push((end..end, PagePart::Text(format!(" {{#{anchor}}}"))));
                 }
-                Event::Start(Tag::Image { .. }) => edits.push((range, String::new())),
+                Event::Start(Tag::Image { .. }) => edits.push((range, PagePart::Text(String::new()))),
                 Event::Start(Tag::Link { dest_url, .. }) => {
                     let is_elsewhere = dest_url.contains("://") || dest_url.starts_with('#');
                     match BookPlace::of_link(&dest_url, self.path) {
-                        Some(place) => links.push((dest_url.to_string(), place)),
+                        Some(place) => shown.links.push((dest_url.to_string(), place)),
                         None if !is_elsewhere => unlinked = Some(String::new()),
                         None => {}
                     }
                 }
+                Event::Start(Tag::CodeBlock(_)) => code = Some(String::new()),
                 Event::Text(words) | Event::Code(words) => {
-                    if let Some(text) = &mut unlinked {
-                        text.push_str(&words);
-                    }
+                    [&mut unlinked, &mut code].into_iter().flatten().for_each(|text| text.push_str(&words));
                 }
-                Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, words))),
+                Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, PagePart::Text(words)))),
+                Event::End(TagEnd::CodeBlock) => {
+                    edits.extend(code.take().map(|lines| (range, PagePart::Code(lines.trim_end().to_owned()))));
+                }
                 _ => {}
             }
         }
-        let mut text = self.text.to_owned();
-        for (range, words) in edits.into_iter().rev() {
-            text.replace_range(range, &words);
+        edits.sort_by_key(|(range, _)| range.start);
+        shown.parts = parts(self.text, edits);
+        for part in &mut shown.parts {
+            let (PagePart::Text(text) | PagePart::Code(text)) = part;
+            for (character, otherwise) in WITHOUT_GLYPH {
+                *text = text.replace(character, otherwise);
+            }
         }
-        ShownPage { text, links }
+        shown
     }
+}
+
+/// Text with edits, cut at its code.
+fn parts(text: &str, edits: Vec<(Range<usize>, PagePart)>) -> Vec<PagePart> {
+    let (mut parts, mut now, mut end) = (Vec::new(), String::new(), 0);
+    for (range, part) in edits {
+        now.push_str(&text[end..range.start]);
+        end = range.end;
+        match part {
+            PagePart::Text(words) => now.push_str(&words),
+            code @ PagePart::Code(_) => parts.extend([PagePart::Text(std::mem::take(&mut now)), code]),
+        }
+    }
+    now.push_str(&text[end..]);
+    parts.push(PagePart::Text(now));
+    parts
 }
 
 /// Anchor of a heading, as the book has it.
@@ -260,12 +296,37 @@ mod tests {
     fn a_shown_page_keeps_its_words_and_only_links_that_lead_somewhere() {
         let page = BookPage {
             path: "how/paper.md",
-            text: "# The *paper*\n\n![A picture](a.png)\n\n[pins](../window.md#pins), [`run`](../benchmarks.md), [x](#y)\n",
+            text: "# The *paper*\n\n![A picture](a.png)\n\n[pins](../window.md#pins), [`run`](../benchmarks.md), [x](#y)\n\n\
+                   ```console\n$ run\n```\n\nEnd\n",
         };
-        let ShownPage { text, links } = page.shown();
-        assert_eq!(text, "# The *paper* {#the-paper}\n\n\n\n[pins](../window.md#pins), run, [x](#y)\n");
+        let ShownPage { parts, links } = page.shown();
+        let text = "# The *paper* {#the-paper}\n\n\n\n[pins](../window.md#pins), run, [x](#y)\n\n";
+        let [before, code, after] = parts.as_slice() else { panic!("{parts:?}") };
+        assert_eq!(*before, PagePart::Text(text.to_owned()));
+        assert_eq!(*code, PagePart::Code("$ run".to_owned()));
+        assert!(matches!(after, PagePart::Text(text) if text.trim() == "End"));
         let page = PAGES.iter().position(|page| page.path == "window.md").expect("a page");
         assert_eq!(links, [("../window.md#pins".to_owned(), BookPlace { page, anchor: Some("pins".to_owned()) })]);
+    }
+
+    #[test]
+    fn every_character_of_the_pages_has_a_glyph() {
+        use eframe::egui::{Context, FontId, RawInput};
+        let context = Context::default();
+        crate::ui::theme::install(&context);
+        let mut missing = BTreeSet::new();
+        let mut output = context.run_ui(RawInput::default(), |ui| {
+            for part in PAGES.iter().flat_map(|page| page.shown().parts) {
+                let (text, font) = match part {
+                    PagePart::Text(text) => (text, FontId::proportional(13.0)),
+                    PagePart::Code(text) => (text, FontId::monospace(12.0)),
+                };
+                let others = text.chars().filter(|c| !c.is_ascii());
+                missing.extend(others.filter(|c| !ui.ctx().fonts_mut(|fonts| fonts.has_glyph(&font, *c))));
+            }
+        });
+        output.textures_delta.clear();
+        assert!(missing.is_empty(), "{missing:?}");
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::I, "Select what is not selected", || Request::SelectBy(SelectBy::Invert)),
     bind(CTRL, Key::CloseBracket, "Grow the selection by its neighbours", || Request::SelectBy(SelectBy::Grow)),
     bind(CTRL, Key::OpenBracket, "Shrink the selection by its rim", || Request::SelectBy(SelectBy::Shrink)),
-    bind(ALT, Key::E, "Select the edge loops of the selected edges", || Request::SelectBy(SelectBy::Loops)),
+    bind(ALT, Key::L, "Select the edge loops of the selected edges", || Request::SelectBy(SelectBy::Loops)),
     bind(ALT, Key::R, "Select the edge rings of the selected edges", || Request::SelectBy(SelectBy::Rings)),
     bind(ALT, Key::Z, "Select through the mesh, or only what is seen", || Request::ToggleThrough),
     bind(SHIFT, Key::P, "Pack the selected charts around the others, or all", || Request::Page(PageRequest::Pack)),

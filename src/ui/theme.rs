@@ -1,7 +1,7 @@
 //! Colours and type sizes: the only place for every colour on the screen.
 
 use eframe::egui;
-use eframe::egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Visuals};
+use eframe::egui::{Color32, CornerRadius, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Visuals};
 
 use crate::view::{Palette, Srgb};
 
@@ -176,6 +176,10 @@ pub fn theme_of(ui: &egui::Ui) -> &'static Theme {
 
 /// Installs both themes, type sizes and spacing in egui. Call once at the start.
 pub fn install(context: &egui::Context) {
+    let mut fonts = FontDefinitions::default();
+    // The font of words has no arrows, and few marks of formulas.
+    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".to_owned());
+    context.set_fonts(fonts);
     context.set_visuals_of(egui::Theme::Light, visuals(&LIGHT, Visuals::light()));
     context.set_visuals_of(egui::Theme::Dark, visuals(&DARK, Visuals::dark()));
     context.all_styles_mut(|style| {

@@ -5,14 +5,14 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use freebound::session::Action;
-use freebound::ui::{Half, PinMark};
+use freebound::ui::{Half, PinMark, Request, Tab};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Family, Method, Pin, PinKind, Settings, Treatment};
 use glam::DVec2;
 
 use crate::constraints::{corners, free_place, pins, place, window};
-use crate::harness::Window;
+use crate::harness::{Window, sheet};
 use freebound_testkit::assert_message;
 
 #[test]
@@ -188,4 +188,24 @@ fn the_selected_constraint_is_magnified_in_both_panes() {
     assert!(named(&window, "Magnifier: v40 on the mesh") && named(&window, "Magnifier: the target of v40"));
     window.menu(&["View", "Show", "Magnifier"]);
     assert!(!named(&window, "Magnifier: v40 on the mesh"));
+}
+
+#[test]
+fn a_pin_gets_the_name_of_a_landmark_that_no_pin_has_yet() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(3), VertexId::new(70)]));
+    window.editor_mut().handle(Request::ShowTab(Tab::Pins));
+    window.editor_mut().selection.select([VertexId::new(3)]);
+    window.settle();
+    window.click("Names for pin v3");
+    window.click("5 points of a face");
+    window.click("tip of the nose");
+    let name =
+        |window: &Window, vertex| window.editor().session.pin_name(VertexId::new(vertex)).map(ToString::to_string);
+    assert_eq!(name(&window, 3).as_deref(), Some("tip of the nose"));
+    window.editor_mut().selection.select([VertexId::new(70)]);
+    window.settle();
+    window.click("Names for pin v70");
+    window.click("5 points of a face");
+    assert!(window.has_button("left eye, centre") && !window.has_button("tip of the nose"));
 }

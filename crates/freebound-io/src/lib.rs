@@ -8,6 +8,7 @@
 //! | `ply`         | PLY files                                                                  |
 //! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `constraints` | constraint files: one pinned vertex per line                               |
+//! | `carried_constraints` | constraints of one mesh on another mesh                            |
 //! | `pin_notes`   | names of pins and landmarks, notes on pins                                 |
 //! | `pts`         | landmarks of a picture (PTS)                                               |
 //! | `landmark_sets` | numbered sets of landmarks on faces, with names                          |
@@ -47,6 +48,7 @@
 mod animation;
 mod atomic;
 mod bake;
+mod carried_constraints;
 mod charts;
 mod comparison;
 mod constraints;
@@ -97,6 +99,7 @@ mod value_table;
 pub use animation::{AnimationForm, AnimationFrame, write_animation};
 pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
 pub use bake::{BakeOptions, BakeReport, BakedPicture, PaintedSurface, bake};
+pub use carried_constraints::{CarriedConstraints, CarriedVertex, CarryReport, carried_constraints};
 pub use charts::TexturedMesh;
 pub use comparison::{
     Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,

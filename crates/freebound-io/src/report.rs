@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::bake::FAR_APART;
 use super::file_data::FileData;
-use super::{BakeReport, MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
+use super::{BakeReport, CarryReport, MeshFile, Precision, ReadWarning, RoundingReport, StepReport, peak_memory_bytes};
 use freebound_core::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use freebound_core::pipeline::{
     AutomaticSeams, PackingSummary, PinsSummary, Placement, PreparedMesh, RepackedChart, StackedOn,
@@ -78,6 +78,9 @@ pub struct Report {
     /// Picture that was drawn for another layout; absent if none was drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub baked: Option<BakeReport>,
+    /// Constraints that were carried to another mesh; absent if none were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub carried: Option<CarryReport>,
     /// Automatic seams; absent if none were looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seams: Option<SeamsReport>,

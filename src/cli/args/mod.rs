@@ -53,7 +53,7 @@ pub use shape::TypedShape;
 pub use solve::{SolveArguments, StartOf};
 pub use study::StudyArguments;
 pub use threads::ThreadArguments;
-pub use transfer::{BakeArguments, TransferArguments};
+pub use transfer::{BakeArguments, CarryArguments, TransferArguments};
 
 /// Flattens 3D triangle meshes into the plane and proves the result.
 #[derive(Debug, Parser)]
@@ -114,6 +114,13 @@ const BAKE_HELP: &str = "Examples:
 
 Exit status: 0 drawn, 1 internal error, 2 wrong use, 3 unusable input, 130 interrupted.";
 
+const CARRY_HELP: &str = "Examples:
+  freebound carry scan.obj finer-scan.obj --constraints face.txt -o finer-face.txt
+  freebound carry head.obj other.obj --constraints face.txt -o other.txt --fit
+
+Exit status: 0 all carried, 1 internal error, 2 wrong use, 3 unusable input,
+4 some constraints are lost, 130 interrupted.";
+
 const BATCH_HELP: &str = "Examples:
   freebound batch models --output-dir unwrapped
   freebound batch scans.txt --output-dir out --resume --format glb -- --distortion 4.2
@@ -155,6 +162,12 @@ pub enum Subcommands {
     /// map depends on its layout: bake it in the program that made it.
     #[command(after_help = BAKE_HELP)]
     Bake(Box<BakeArguments>),
+    /// Carry the constraints of a mesh to another mesh of the surface, and list both vertices of each.
+    ///
+    /// Vertices of meshes with equal faces keep their numbers. Otherwise each constraint goes to the nearest vertex, on
+    /// the same side of the surface, that no other constraint has.
+    #[command(after_help = CARRY_HELP)]
+    Carry(Box<CarryArguments>),
     /// Flatten or unwrap many meshes side by side.
     ///
     /// Prints one line of JSON for each mesh as it ends. A mesh that cannot be used stops nothing. The exit status is the

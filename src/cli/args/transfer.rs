@@ -1,4 +1,4 @@
-//! Arguments of `transfer` and `bake`.
+//! Arguments of `transfer`, `bake` and `carry`.
 
 use std::path::PathBuf;
 
@@ -68,4 +68,28 @@ impl BakeArguments {
         let pixels = self.size.map_or_else(|| BakeOptions::size_for(&picture.pixels), |size| size.to_array());
         BakeOptions { pixels, margin: self.margin, registration: Registration::of(self.fit) }
     }
+}
+
+/// Arguments of `carry`.
+#[derive(Debug, Args)]
+pub struct CarryArguments {
+    /// Mesh that the constraints are for, or standard input with `-`.
+    pub old: PathBuf,
+    /// Mesh that gets the constraints, at the place and size of the old one.
+    pub new: PathBuf,
+    /// Constraints of the old mesh: a vertex, u, v, and a weight if it is soft, on each line.
+    #[arg(short, long, value_name = "FILE")]
+    pub constraints: PathBuf,
+    /// Write the constraints for the new mesh to this file, or to standard output with `-`.
+    #[arg(short, long, value_name = "FILE|-")]
+    pub output: PathBuf,
+    /// Move and scale the old mesh into the box of the new one before nearest points are sought.
+    #[arg(long)]
+    pub fit: bool,
+    /// Write a report to this file (JSON), or to standard output with `-`.
+    #[arg(long, value_name = "FILE|-")]
+    pub report: Option<PathBuf>,
+    /// Limits and choices of reading.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
 }

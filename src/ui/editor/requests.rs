@@ -176,8 +176,9 @@ impl Editor {
     pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
         let is_for = |kind: FileDialogKind| move |path: &PathBuf| kind.form().fits(path);
         let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) = paths.into_iter().partition(|path| is_picture(path));
+        let is_constraints = is_for(FileDialogKind::ImportConstraints);
         let (constraints, others): (Vec<_>, Vec<_>) =
-            others.into_iter().partition(is_for(FileDialogKind::ImportConstraints));
+            others.into_iter().partition(|path| is_constraints(path) && !has_extension(path, &[PROJECT_EXTENSION]));
         let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(FileDialogKind::ImportSeams));
         // A project names its mesh, so projects come first.
         meshes.sort_by_key(|path| !has_extension(path, &[PROJECT_EXTENSION]));

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Align2, FontFamily, FontId, Id, Role, ScrollArea, TextStyle};
 use egui_commonmark::CommonMarkViewer;
 
-use crate::ui::documentation::{BookPlace, TITLES, find_sections};
+use crate::ui::documentation::{BookPlace, PagePart, TITLES, find_sections};
 use crate::ui::state::DocumentationView;
 use crate::ui::{Control, Editor, theme_of};
 
@@ -84,7 +84,11 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
     let id = Id::unique("documentation page").with(view.place());
     let mut area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
     match view.take_goal() {
-        Some(Some(anchor)) => view.cache.scroll_to_heading(&id, Some(anchor)),
+        Some(Some(anchor)) => {
+            for place in 0..view.shown.parts.len() {
+                view.cache.scroll_to_heading(&id.with(place), Some(anchor.clone()));
+            }
+        }
         Some(None) => area = area.vertical_scroll_offset(0.0),
         None => {}
     }
@@ -93,11 +97,31 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
         ui.visuals_mut().override_text_color = None;
         ui.visuals_mut().widgets.noninteractive.fg_stroke.color = theme_of(ui).text;
         ui.style_mut().text_styles.insert(TextStyle::Heading, FontId::new(HEADING, FontFamily::Proportional));
-        let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
-        viewer.show_with_id(id, ui, &mut view.cache, &view.shown.text);
+        for (place, part) in view.shown.parts.iter().enumerate() {
+            match part {
+                PagePart::Text(text) => {
+                    // Each part numbers its tables on its own.
+                    ui.push_id(id.with(place), |ui| {
+                        let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
+                        viewer.show_with_id(id.with(place), ui, &mut view.cache, text);
+                    });
+                }
+                PagePart::Code(lines) => code(ui, lines),
+            }
+        }
     });
     let clicked = view.shown.links.iter().find(|(link, _)| view.cache.get_link_hook(link) == Some(true));
     if let Some((_, place)) = clicked.cloned() {
         view.go_to(place);
     }
+}
+
+/// Lines of code, which can be selected and copied.
+fn code(ui: &mut egui::Ui, lines: &str) {
+    let fill = ui.visuals().code_bg_color;
+    egui::Frame::new().fill(fill).corner_radius(4).inner_margin(8).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.add(egui::Label::new(egui::RichText::new(lines).monospace()).wrap().selectable(true));
+    });
+    ui.add_space(8.0);
 }

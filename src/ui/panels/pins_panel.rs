@@ -17,7 +17,7 @@ use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Pin, PinKind};
 use freebound_core::verify::Conflict;
-use freebound_io::PinName;
+use freebound_io::{LandmarkSet, PinName};
 
 /// Height reserved below the table, points.
 const BELOW: f32 = 250.0;
@@ -26,7 +26,10 @@ const BELOW: f32 = 250.0;
 const FIELDS: [f32; 2] = [50.0, 44.0];
 
 /// Width and height of the name of a pin, points.
-const NAME: [f32; 2] = [210.0, 17.0];
+const NAME: [f32; 2] = [160.0, 17.0];
+
+/// Width of the menu of names, points.
+const NAMES: f32 = 50.0;
 
 /// Gaps between columns and between rows of the table, points.
 const GAPS: [f32; 2] = [7.0, 4.0];
@@ -158,6 +161,7 @@ fn name_row(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut
     let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
     let response = child.add_sized(place.size(), field.desired_width(place.width()));
     let response = response.named(Role::TextInput, &format!("Name of pin {vertex}"));
+    names_menu(&mut child, editor, vertex, requests);
     let tip = "Name of this pin. It is saved, and joins the pin with a landmark of that name";
     let response = response.on_hover_text(if name.is_empty() { tip.to_owned() } else { format!("{name}\n{tip}") });
     if !response.lost_focus() {
@@ -171,6 +175,30 @@ fn name_row(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut
     if text != name && !gives_up {
         requests.push(Action::NamePin { vertex, name: PinName::new(&text).ok() }.into());
     }
+}
+
+/// Menu with the names of landmarks on faces that no pin has yet, beside the field of a name.
+fn names_menu(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
+    let at = ui.max_rect().right_top() + Vec2::new(2.0, 0.0);
+    let place = egui::Rect::from_min_size(at, Vec2::new(NAMES, NAME[1]));
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    let button = egui::Button::new(RichText::new("Names").small()).small();
+    let (menu, _) = MenuButton::from_button(button).ui(&mut child, |ui| {
+        let taken = editor.session.taken_names();
+        for set in LandmarkSet::ALL.into_iter().rev() {
+            let title = format!("{} points of a face", set.names().len());
+            ui.menu_button(title, |ui| {
+                egui::ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+                    let free = set.names().iter().filter_map(|name| PinName::new(name).ok());
+                    for name in free.filter(|name| !taken.contains(&name.key())) {
+                        let entry = ui.button(name.as_str());
+                        entry.asks(Action::NamePin { vertex, name: Some(name) }, requests);
+                    }
+                });
+            });
+        }
+    });
+    menu.on_hover_text("Names of landmarks on faces").named(Role::Button, &format!("Names for pin {vertex}"));
 }
 
 /// Cell of a hard pin: its state, and a menu of other kinds.

@@ -98,9 +98,12 @@ impl FileDialogKind {
             Self::OpenTable => ("Open a table of numbers", "Tables", &["csv", "tsv", "txt"], ""),
             Self::OpenChecker => ("Open a picture for the checker", "Pictures", PICTURES, ""),
             Self::CopyLayout => ("Copy the layout of another mesh", "Meshes", MESHES, ""),
-            Self::ImportConstraints => {
-                ("Import constraints or landmarks", "Constraints, landmarks", &["txt", "pts"], "")
-            }
+            Self::ImportConstraints => (
+                "Import constraints or landmarks",
+                "Constraints, landmarks, projects",
+                &["txt", "pts", "freebound"],
+                "",
+            ),
             Self::ExportConstraints => {
                 ("Export the constraints", "Constraints, landmarks", &["txt", "pts"], "-constraints.txt")
             }

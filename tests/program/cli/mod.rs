@@ -5,6 +5,7 @@ pub(crate) mod arguments;
 pub(crate) mod atlas;
 pub(crate) mod batch;
 pub(crate) mod book;
+pub(crate) mod carry;
 pub(crate) mod charts;
 pub(crate) mod charts_packed;
 pub(crate) mod charts_refined;

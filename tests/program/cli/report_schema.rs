@@ -153,7 +153,7 @@ fn has_type(value: &Value, rule: &Value) -> bool {
 pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
 /// Input files with various faults.
-const FILES: [(&str, &str); 20] = [
+const FILES: [(&str, &str); 21] = [
     ("laid.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"),
     (
         "twin-charts.obj",
@@ -193,6 +193,7 @@ const FILES: [(&str, &str); 20] = [
          f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
     ),
     ("pins.txt", "0 0 0\n0 1 1\n"),
+    ("held.txt", "0 0 0\n2 1 1\n"),
     ("odd-polygons.obj", ODD_POLYGONS),
     ("named.obj", "o square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
 ];
@@ -208,9 +209,10 @@ pub(crate) const ODD_POLYGONS: &str = "\
     f 4 6 3 12 10 11\nf 3 9 8 13 10 12\n";
 
 /// Runs with their exit status: together they write all kinds of fields.
-const RUNS: [(&[&str], i32); 41] = [
+const RUNS: [(&[&str], i32); 42] = [
     (&["transfer", "laid.obj", "tent.obj"], 0),
     (&["transfer", "laid.obj", "laid.obj"], 0),
+    (&["carry", "laid.obj", "tent.obj", "-c", "held.txt", "-o", "carried.txt"], 0),
     (&["transfer", "half.obj", "half.obj"], 3),
     (&["bake", "laid.obj", "laid.obj", "--picture", "skin.png", "-o", "baked.png"], 0),
     (&["flatten", "odd-polygons.obj", "--no-new-vertices"], 4),

@@ -74,6 +74,41 @@ fn names_come_back_from_a_project_and_from_a_constraint_file() {
 }
 
 #[test]
+fn the_pins_of_a_project_are_carried_to_another_mesh_in_one_step() {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 3, Target::hard(DVec2::new(0.25, 0.5)));
+    place(&mut session, 8, Target::hard(DVec2::new(0.75, 0.5)));
+    session.handle(Action::NamePin { vertex: id(3), name: Some(name("left eye")) });
+    let project = folder.path().join("dome.freebound");
+    settled(&mut session, Action::SaveProject(project.clone()));
+    let (targets, notes) = (session.document().targets.clone(), session.document().notes.clone());
+    // The same mesh, moved: its faces are equal.
+    let moved = folder.path().join("moved.obj");
+    let text = std::fs::read_to_string(folder.path().join("dome.obj")).unwrap();
+    std::fs::write(&moved, text.replace("v ", "v 9")).unwrap();
+    settled(&mut session, Action::Open(moved));
+    assert!(session.document().targets.is_empty());
+    let depth = session.history().depth();
+    settled(&mut session, Action::ImportConstraints(project));
+    assert_eq!((&session.document().targets, &session.document().notes), (&targets, &notes));
+    assert_eq!(session.history().depth(), depth + 1);
+    assert!(session.messages().iter().any(|message| message.vertices == [id(3), id(8)]), "for a look at them");
+    settled(&mut session, Action::Undo);
+    assert!(session.document().targets.is_empty() && session.document().notes.is_empty());
+}
+
+#[test]
+fn a_project_that_cannot_be_read_brings_no_pins() {
+    let (folder, mut session) = with_dome();
+    let project = folder.path().join("broken.freebound");
+    std::fs::write(&project, "{").unwrap();
+    let depth = session.history().depth();
+    settled(&mut session, Action::ImportConstraints(project));
+    assert_eq!(session.history().depth(), depth);
+    assert!(session.messages().iter().any(|message| message.remedy.is_some()));
+}
+
+#[test]
 fn equal_targets_are_merged_in_one_step_and_the_name_stays() {
     let (_folder, mut session) = with_dome();
     let target = Target::hard(DVec2::new(0.25, 0.5));
