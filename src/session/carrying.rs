@@ -46,16 +46,14 @@ impl Session {
             return;
         }
         let noun = if report.count == 1 { "constraint" } else { "constraints" };
-        let mut words = format!("{} {noun} carried", report.count);
-        if !report.same_faces {
-            words += &format!(", at most {:.2} % of the size away", 100.0 * report.largest_distance / report.diagonal);
-        }
-        if is_moved {
-            words += "; the mesh of the project was moved and scaled to this one";
-        }
-        if !report.lost.is_empty() {
-            words += &format!("; {} lost, because others took the vertices near them", report.lost.len());
-        }
+        let percent = 100.0 * report.largest_distance / report.diagonal;
+        let away = if report.same_faces { String::new() } else { format!(", at most {percent:.2} % of the size away") };
+        let moved = if is_moved { "; the mesh of the project was moved and scaled to this one" } else { "" };
+        let lost = match report.lost.len() {
+            0 => String::new(),
+            count => format!("; {count} lost, because others took the vertices near them"),
+        };
+        let words = format!("{} {noun} carried{away}{moved}{lost}", report.count);
         let message = Message::note(MessagePlace::Embedding, words).with_vertices(vertices).of_file(Some(path));
         self.messages.say(message.with_remedy("check the vertices of the constraints"));
     }

@@ -42,8 +42,14 @@ pub(in crate::ui) static PAGES: [BookPage; 26] = pages![
 ];
 
 /// Characters that the fonts of the window lack, and how they are written there.
-const WITHOUT_GLYPH: [(char, &str); 6] =
-    [('ᵀ', "^T"), ('ᴴ', "^H"), ('ᵖ', "^p"), ('ᵢ', "_i"), ('ⱼ', "_j"), ('\u{304}', "")];
+const WITHOUT_GLYPH: [(char, &str); 6] = [
+    ('\u{1d40}', "^T"),
+    ('\u{1d34}', "^H"),
+    ('\u{1d56}', "^p"),
+    ('\u{1d62}', "_i"),
+    ('\u{2c7c}', "_j"),
+    ('\u{304}', ""),
+];
 
 /// Sections of all pages, in the order of the pages.
 static SECTIONS: LazyLock<Vec<Vec<Section>>> = LazyLock::new(|| PAGES.iter().map(BookPage::sections).collect());

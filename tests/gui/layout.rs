@@ -8,7 +8,7 @@ use egui_kittest::kittest::NodeT as _;
 use freebound::app::LaunchFile;
 use freebound::examples::Example;
 use freebound::session::Action;
-use freebound::ui::{Request, ShadingMode, Tab};
+use freebound::ui::{Request, ShadingMode, Tab, Tool};
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_core::pipeline::Target;
 use freebound_core::problem::{Family, Method, Settings};
@@ -223,5 +223,39 @@ fn the_columns_of_the_pins_never_touch() {
             let last = cells.last().expect("cells").1.right();
             assert!(last <= size.x - 10.0, "{size}: {cells:?}");
         }
+    }
+}
+
+#[test]
+fn panes_keep_their_places_whatever_appears_beside_or_over_them() {
+    let mut window = folded();
+    let places = |window: &Window| [window.mesh_view(), window.plane_view()];
+    let before = places(&window);
+    for tab in Tab::ALL {
+        window.editor_mut().handle(Request::ShowTab(tab));
+        window.settle();
+        assert_eq!(places(&window), before, "{tab:?}");
+    }
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(3), VertexId::new(8)]));
+    window.settle();
+    for tool in Tool::ALL {
+        window.editor_mut().handle(Request::SetTool(tool));
+        window.settle();
+        assert_eq!(places(&window), before, "{tool:?}");
+    }
+    let appearances = [
+        ("a step", Request::Do(Action::Step)),
+        ("a defect", Request::StepDefect(1)),
+        ("the field to go to an element", Request::AskGoTo),
+        ("the list of exports", Request::ToggleExports),
+        ("a message", Request::Do(Action::ImportConstraints(window.path("missing.txt")))),
+        ("the documentation", Request::ShowDocumentation(None)),
+        ("the hull", Request::ToggleHull),
+        ("a shading with a legend", Request::SetShading(ShadingMode::Angle)),
+    ];
+    for (what, request) in appearances {
+        window.editor_mut().handle(request);
+        window.settle();
+        assert_eq!(places(&window), before, "{what}");
     }
 }

@@ -49,12 +49,14 @@ fn a_side_of_a_roof_is_selected_up_to_its_ridge() {
 fn edge_loops_and_rings_of_quadrilaterals_cross_the_sheet() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("squares.obj");
-    let vertices: String = (0..49).map(|i| format!("v {} {} 0\n", i % 7, i / 7)).collect();
     let corner = |x: u32, y: u32| 7 * y + x + 1;
-    let face =
-        |x, y| format!("f {} {} {} {}\n", corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1));
-    let faces: String = (0..36).map(|i| face(i % 6, i / 6)).collect();
-    std::fs::write(&path, vertices + &faces).expect("the folder can be written to");
+    let vertex = |i: u32| format!("v {} {} 0", i % 7, i / 7);
+    let face = |i: u32| {
+        let (x, y) = (i % 6, i / 6);
+        format!("f {} {} {} {}", corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1))
+    };
+    let lines: Vec<String> = (0..49).map(vertex).chain((0..36).map(face)).collect();
+    std::fs::write(&path, lines.join("\n")).expect("the folder can be written to");
     let mut window = Window::with_file(&path);
     let edge = [VertexId::new(24), VertexId::new(25)];
     window.editor_mut().selection.select(edge);

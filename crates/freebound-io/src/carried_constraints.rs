@@ -75,20 +75,20 @@ pub fn carried_constraints(
         nearest(constraints, &from.triangulate(), &search, &surface, registration)
     };
     let carried = moves.iter().filter_map(|&CarriedVertex { from, to, .. }| Some((from, to?)));
-    let mut moved = Constraints::default();
+    let mut placed = Constraints::default();
     for (before, after) in carried {
-        moved.targets.extend(constraints.targets.get(&before).map(|&target| (after, target)));
-        moved.lines.extend(constraints.lines.get(&before).map(|&line| (after, line)));
-        moved.notes.extend(constraints.notes.get(&before).cloned().map(|note| (after, note)));
+        placed.targets.extend(constraints.targets.get(&before).map(|&target| (after, target)));
+        placed.lines.extend(constraints.lines.get(&before).map(|&line| (after, line)));
+        placed.notes.extend(constraints.notes.get(&before).cloned().map(|note| (after, note)));
     }
     let report = CarryReport {
         same_faces,
-        count: moved.targets.len(),
+        count: placed.targets.len(),
         lost: moves.iter().filter(|carried| carried.to.is_none()).map(|carried| carried.from).collect(),
         largest_distance: moves.iter().filter(|carried| carried.to.is_some()).map(|it| it.distance).fold(0.0, f64::max),
         diagonal: search.diagonal(),
     };
-    CarriedConstraints { constraints: moved, moves, report }
+    CarriedConstraints { constraints: placed, moves, report }
 }
 
 /// Every vertex with its number.
@@ -144,7 +144,9 @@ fn normals_at(surface: &TriMesh, constraints: &Constraints) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; surface.positions.len()];
     for (face, corners) in surface.triangles.iter().enumerate() {
         let area = surface.double_area_vector(FaceId::from_index(face));
-        corners.iter().for_each(|corner| normals[corner.index()] += area);
+        for corner in corners {
+            normals[corner.index()] += area;
+        }
     }
     let normal = |vertex: &VertexId| normals.get(vertex.index()).copied().unwrap_or_default();
     constraints.targets.keys().map(normal).collect()
@@ -164,13 +166,13 @@ mod tests {
         let bent = |x: f64, y: f64| place + scale * DVec3::new(x * step, y * step, (x * step * 0.4).sin());
         let mesh = shaped(side, side, bent);
         let faces: Vec<[u32; 3]> = mesh.triangles.iter().map(|corners| corners.map(VertexId::number)).collect();
-        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|place| place.to_array()).collect();
+        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(DVec3::to_array).collect();
         MeshFile::from(PolygonMesh::from_arrays(&positions, &faces))
     }
 
     fn constraints(vertices: &[u32]) -> Constraints {
-        let lines: String =
-            vertices.iter().map(|vertex| format!("{vertex} {vertex}.5 0.25 # pin {vertex}\n")).collect();
+        let line = |vertex: &u32| format!("{vertex} {vertex}.5 0.25 # pin {vertex}");
+        let lines = vertices.iter().map(line).collect::<Vec<_>>().join("\n");
         Constraints::parse(&lines, 1000).expect("constraints")
     }
 

@@ -26,9 +26,13 @@ pub(crate) fn scale_to_true_size(charts: &[LaidChart<'_>], embeddings: &mut [Emb
 }
 
 fn true_factor(charts: &[LaidChart<'_>], embeddings: &[Embedding]) -> io::Result<f64> {
-    let whole: f64 = charts.iter().map(|chart| chart.mesh.area()).sum();
-    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| chart.mesh.area() > TINY * whole);
-    let factors: Vec<f64> = charts.map(|(chart, embedding)| true_area_factor(chart.mesh, embedding)).collect();
+    // Extremely large and small meshes have a unit of their own. Ratios of units neither overflow nor underflow.
+    let unit = charts.iter().map(|chart| chart.mesh.unit()).fold(0.0, f64::max);
+    let area = |chart: &LaidChart<'_>| chart.mesh.area() * (chart.mesh.unit() / unit).powi(2);
+    let whole: f64 = charts.iter().map(area).sum();
+    let charts = charts.iter().zip(embeddings).filter(|(chart, _)| area(chart) > TINY * whole);
+    let factors: Vec<f64> =
+        charts.map(|(chart, embedding)| true_area_factor(chart.mesh, embedding) * chart.mesh.unit()).collect();
     let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
     let most = factors.iter().copied().fold(0.0, f64::max);
     if most > least * (1.0 + SAME_SCALE) {

@@ -84,15 +84,17 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
     let id = Id::unique("documentation page").with(view.place());
     let mut area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
     match view.take_goal() {
-        Some(Some(anchor)) => {
+        Some(BookPlace { anchor: Some(anchor), .. }) => {
             for place in 0..view.shown.parts.len() {
                 view.cache.scroll_to_heading(&id.with(place), Some(anchor.clone()));
             }
         }
-        Some(None) => area = area.vertical_scroll_offset(0.0),
+        Some(BookPlace { anchor: None, .. }) => area = area.vertical_scroll_offset(0.0),
         None => {}
     }
     area.show(ui, |ui| {
+        // A jump to a section must not race through the page.
+        ui.style_mut().scroll_animation = egui::style::ScrollAnimation::none();
         // Without it, links have the colour of links.
         ui.visuals_mut().override_text_color = None;
         ui.visuals_mut().widgets.noninteractive.fg_stroke.color = theme_of(ui).text;

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::session::Action;
-use crate::ui::{Control, Editor, Request};
+use crate::ui::{Control, Editor, Request, accented, theme_of};
 
 impl Editor {
     /// True if a modal question is open.
@@ -32,9 +32,9 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
         ));
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            for (action, words) in [(Action::OpenLarge, "Open"), (Action::LeaveLarge, "Cancel")] {
-                ui.button(words).asks(Request::Do(action), requests);
-            }
+            // The button that risks nothing is the primary one.
+            ui.button("Open").asks(Request::Do(Action::OpenLarge), requests);
+            ui.add(accented("Cancel", theme_of(ui))).asks(Request::Do(Action::LeaveLarge), requests);
         });
     });
 }

@@ -101,8 +101,8 @@ fn show(
         (false, true) => theme.text,
         (false, false) => theme.weak_text,
     };
-    let side = if has_names { ICON } else { NAMELESS.x };
-    icon(ui.painter(), Rect::from_min_size(rect.center_top() - Vec2::X * side / 2.0, Vec2::splat(side)), colour);
+    let width = if has_names { ICON } else { NAMELESS.x };
+    icon(ui.painter(), Rect::from_min_size(rect.center_top() - Vec2::X * width / 2.0, Vec2::splat(width)), colour);
     if has_names {
         let font: FontId = TextStyle::Small.resolve(ui.style());
         ui.painter().text(rect.center_bottom() - Vec2::Y * 2.0, Align2::CENTER_BOTTOM, name, font, colour);

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::ui::state::{PendingClose, UnsavedAnswer};
-use crate::ui::{Control, Editor, Request};
+use crate::ui::{Control, Editor, Request, accented, theme_of};
 
 /// Keeps the window open if the user closes it with unsaved work, and asks.
 pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
@@ -27,11 +27,8 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
         });
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            for (answer, words) in [
-                (UnsavedAnswer::Save, "Save"),
-                (UnsavedAnswer::DontSave, "Don't save"),
-                (UnsavedAnswer::Cancel, "Cancel"),
-            ] {
+            ui.add(accented("Save", theme_of(ui))).asks(Request::Answer(UnsavedAnswer::Save), requests);
+            for (answer, words) in [(UnsavedAnswer::DontSave, "Don't save"), (UnsavedAnswer::Cancel, "Cancel")] {
                 ui.button(words).asks(Request::Answer(answer), requests);
             }
         });

@@ -49,8 +49,8 @@ pub(in crate::ui) struct DocumentationView {
     pub(in crate::ui) found: Vec<FoundSection>,
     place: BookPlace,
     pub(in crate::ui) shown: ShownPage,
-    /// Anchor to scroll to in the next frame; the inner `None` is the top of the page.
-    goal: Option<Option<String>>,
+    /// Place to scroll to in the next frame.
+    goal: Option<BookPlace>,
     /// Places before this one.
     before: Vec<BookPlace>,
     /// State of the viewer.
@@ -94,14 +94,14 @@ impl DocumentationView {
         }
     }
 
-    /// Anchor to scroll to, once; the inner `None` is the top of the page.
-    pub(in crate::ui) fn take_goal(&mut self) -> Option<Option<String>> {
+    /// Place on the page to scroll to, once.
+    pub(in crate::ui) fn take_goal(&mut self) -> Option<BookPlace> {
         self.goal.take()
     }
 
     fn show(&mut self, place: BookPlace) {
         self.shown = PAGES[place.page].shown();
-        self.goal = Some(place.anchor.clone());
+        self.goal = Some(place.clone());
         self.place = place;
         self.cache.link_hooks_clear();
         for (link, _) in &self.shown.links {
