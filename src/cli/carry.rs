@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &CarryArguments) -> Result<CommandOutcome, CommandE
         go_on()?;
         progress.enter("carrying");
         let registration = Registration::of(arguments.fit);
-        let carried = carried_constraints(&constraints, &old.source, &new.source, registration);
+        let carried = carried_constraints(&constraints, &old.source.polygons, &new.source.polygons, registration);
         let solve = start.elapsed().as_secs_f64() - read;
         go_on()?;
         progress.enter("writing");
@@ -53,8 +53,8 @@ pub(super) fn run(arguments: &CarryArguments) -> Result<CommandOutcome, CommandE
         let total = start.elapsed().as_secs_f64();
         let seconds = Seconds { read, solve, write, total, ..Seconds::default() };
         let report = Report { carried: Some(carried.report.clone()), seconds, ..Report::of_mesh(mesh) };
-        let words = || carry_summary(&report, &carried, &constraints.notes);
+        let words = || carry_summary(&report, &carried.report, &constraints.notes);
         deliver_beside(is_streamed, &report, arguments.report.as_deref(), words)?;
-        Ok(CommandOutcome::of(carried.report.lost.is_empty()))
+        Ok(CommandOutcome::of(carried.report.lost().is_empty()))
     })
 }

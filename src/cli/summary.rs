@@ -15,9 +15,8 @@ use freebound_core::pipeline::{PackingSummary, PinsSummary, Placement, SolvedPro
 use freebound_core::problem::{Method, NamedOption as _, SolveError, Stage};
 use freebound_core::verify::{Conflict, DistortionSummary, Finding, FindingSeverity, Verdict};
 use freebound_io::{
-    BakeReport, CarriedConstraints, CarriedVertex, CarryReport, ChartNumber, ChartReport, Column, ComparisonReport,
-    ComparisonSeconds, MeshReport, MorphReport, Output, PinNotes, Report, SeamsReport, Seconds, StepReport,
-    TransferReport,
+    BakeReport, CarriedVertex, CarryReport, ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds,
+    MeshReport, MorphReport, Output, PinNotes, Report, SeamsReport, Seconds, StepReport, TransferReport,
 };
 
 /// Symmetric Dirichlet energy above which a map is badly distorted: twice that of an isometric map.
@@ -25,9 +24,6 @@ const BAD_ENERGY: f64 = 8.0;
 
 /// Maximum number of vertices, conflicts or charts that are listed. The others are only counted.
 const NAMED: usize = 10;
-
-/// Maximum number of carried constraints that are listed.
-const MOST_CARRIED: usize = 40;
 
 /// List of elements, shortened if there are many.
 fn listed(elements: &[impl Display]) -> String {
@@ -323,31 +319,28 @@ pub(super) fn bake_summary(report: &Report, picture: &Path, [width, height]: [u3
 }
 
 /// Summary of carried constraints: both vertices of each, for a look at the correspondence.
-pub(super) fn carry_summary(report: &Report, carried: &CarriedConstraints, notes: &PinNotes) -> String {
-    let CarryReport { same_faces, count, lost, largest_distance, diagonal } = &carried.report;
-    let mut lines: Vec<String> =
-        carried.moves.iter().take(MOST_CARRIED).map(|it| carried_words(it, notes, *diagonal)).collect();
-    lines.extend(
-        (carried.moves.len() > MOST_CARRIED).then(|| format!("and {} more", carried.moves.len() - MOST_CARRIED)),
-    );
+pub(super) fn carry_summary(report: &Report, carried: &CarryReport, notes: &PinNotes) -> String {
+    let mut lines: Vec<String> = carried.vertices.iter().map(|vertex| carried_words(carried, vertex, notes)).collect();
     lines.extend(file_words(&report.mesh));
-    let counted = counted(*count, "constraint", "constraints");
-    lines.push(match same_faces {
-        true => format!("{counted} carried: the faces are equal, so vertices keep their numbers"),
-        false => format!("{counted} carried, at most {:.2} % of the size away", 100.0 * largest_distance / diagonal),
+    let counted = counted(carried.count, "constraint", "constraints");
+    lines.push(if carried.same_faces {
+        format!("{counted} carried: the faces are equal, so vertices keep their numbers")
+    } else {
+        format!("{counted} carried, vertices move by at most {:.2} % of the mesh's diagonal", carried.largest_percent())
     });
-    lines.extend((!lost.is_empty()).then(|| format!("lost: {}: others took the vertices near them", listed(lost))));
-    lines.extend(carried.report.is_apart().then(|| APART.to_owned()));
+    let lost = carried.lost();
+    lines.extend((!lost.is_empty()).then(|| format!("lost: {}: the new mesh has no free vertex near", listed(&lost))));
+    lines.extend(carried.is_apart().then(|| APART.to_owned()));
     lines.join("\n")
 }
 
 /// Line of a carried constraint.
-fn carried_words(carried: &CarriedVertex, notes: &PinNotes, diagonal: f64) -> String {
+fn carried_words(report: &CarryReport, carried: &CarriedVertex, notes: &PinNotes) -> String {
     let name = notes.get(&carried.from).and_then(|note| note.name.as_ref());
     let name = name.map(|name| format!(" ({name})")).unwrap_or_default();
     match carried.to {
         Some(to) => {
-            format!("{}{name} -> {to}, {:.2} % of the size away", carried.from, 100.0 * carried.distance / diagonal)
+            format!("{}{name} -> {to}, {:.2} % of the diagonal away", carried.from, report.percent(carried.distance))
         }
         None => format!("{}{name} is lost", carried.from),
     }

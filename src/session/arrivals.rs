@@ -108,16 +108,20 @@ impl Session {
         self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
     }
 
-    pub(super) fn take_constraints(&mut self, Constraints { targets, notes, .. }: Constraints) {
+    /// Makes constraints an edit. Returns false if that is refused, which a message says.
+    pub(super) fn take_constraints(&mut self, Constraints { targets, notes, .. }: Constraints) -> bool {
         if targets.is_empty() {
-            return self.complain("the file has no constraints", None);
+            self.complain("the file has no constraints", None);
+            return false;
         }
-        let Some(model) = self.model().cloned() else { return };
+        let Some(model) = self.model().cloned() else { return false };
         if !self.has_form_as_wanted() {
             let text = "the constraints were not imported: the mesh is not prepared yet";
-            return self.complain(text, Some("solve, then import them again"));
+            self.complain(text, Some("solve, then import them again"));
+            return false;
         }
-        if self.takes_pins() {
+        let takes_pins = self.takes_pins();
+        if takes_pins {
             let (mut by_chart, mut notes) = (model.by_chart(targets), model.by_chart(notes));
             let shown = model.prepared.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));
             let here = by_chart.remove(&shown).unwrap_or_default();
@@ -133,5 +137,6 @@ impl Session {
             });
             self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).chain(names).chain(elsewhere).collect());
         }
+        takes_pins
     }
 }

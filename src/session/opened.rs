@@ -219,7 +219,7 @@ fn read_model(path: &Path, form: Preparation, memory: Option<u64>) -> Result<Mod
 }
 
 /// Mesh of a project, with a remark if it has changed since the project was saved.
-fn project_mesh(
+pub(super) fn project_mesh(
     source: &ProjectSource,
     form: Preparation,
     memory: Option<u64>,
@@ -284,7 +284,7 @@ fn has_changed(before: Option<&FileStamp>, now: Option<&FileStamp>) -> bool {
     before.zip(now).is_some_and(|(before, now)| before != now)
 }
 
-pub(super) fn example_called(name: &str) -> Option<Example> {
+fn example_called(name: &str) -> Option<Example> {
     Example::ALL.into_iter().find(|example| example.name() == name)
 }
 

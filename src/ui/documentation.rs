@@ -66,35 +66,38 @@ pub(in crate::ui) struct BookPage {
     text: &'static str,
 }
 
-/// Place in the book.
+/// Page of the book, with a heading.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::ui) struct BookPlace {
+pub(in crate::ui) struct BookAnchor {
     /// Page, by its place in the list.
     pub(in crate::ui) page: usize,
-    /// Anchor of a heading.
-    pub(in crate::ui) anchor: Option<String>,
+    /// Anchor of the heading. `None` is the top of the page.
+    pub(in crate::ui) heading: Option<String>,
 }
 
-impl BookPlace {
-    /// Place of a link such as `window.md#pins` from a page of this path. `None` if it leads to no page of the list.
+impl BookAnchor {
+    /// Target of a link such as `window.md#pins` or `#pins` from a page of this path. `None` if it leads to no page of the
+    /// list.
     fn of_link(link: &str, from: &str) -> Option<Self> {
         let (path, anchor) = link.split_once('#').map_or((link, None), |(path, anchor)| (path, Some(anchor)));
-        let mut parts: Vec<&str> = from.split('/').collect();
-        parts.pop();
-        for part in path.split('/') {
-            match part {
-                ".." => drop(parts.pop()),
-                part => parts.push(part),
+        let mut names: Vec<&str> = from.split('/').collect();
+        if !path.is_empty() {
+            names.pop();
+        }
+        for name in path.split('/').filter(|name| !name.is_empty()) {
+            match name {
+                ".." => drop(names.pop()),
+                name => names.push(name),
             }
         }
-        let path = parts.join("/");
+        let path = names.join("/");
         let page = PAGES.iter().position(|page| page.path == path)?;
-        Some(Self { page, anchor: anchor.map(str::to_owned) })
+        Some(Self { page, heading: anchor.map(str::to_owned) })
     }
 
-    /// Place of a path with an anchor, for example `window.md#pins`. Default: the first page.
+    /// Target of a path with an anchor, for example `window.md#pins`. Default: the first page.
     pub(in crate::ui) fn of(path: &str) -> Self {
-        Self::of_link(path, "").unwrap_or(Self { page: 0, anchor: None })
+        Self::of_link(path, "").unwrap_or(Self { page: 0, heading: None })
     }
 }
 
@@ -106,9 +109,9 @@ pub(in crate::ui) struct Section {
     text: String,
 }
 
-/// Part of a page.
+/// Block of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::ui) enum PagePart {
+pub(in crate::ui) enum PageBlock {
     /// Markdown text: headings have their anchors, pictures are left out, and only links that lead somewhere stay links.
     Text(String),
     /// Lines of code.
@@ -118,9 +121,9 @@ pub(in crate::ui) enum PagePart {
 /// Page for the window, and the links to other pages.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) struct ShownPage {
-    pub(in crate::ui) parts: Vec<PagePart>,
-    /// Links as the text has them, with their places.
-    pub(in crate::ui) links: Vec<(String, BookPlace)>,
+    pub(in crate::ui) blocks: Vec<PageBlock>,
+    /// Links as the text has them, with their targets.
+    pub(in crate::ui) links: Vec<(String, BookAnchor)>,
 }
 
 impl BookPage {
@@ -166,7 +169,7 @@ impl BookPage {
     /// Page as the window shows it.
     pub(in crate::ui) fn shown(&self) -> ShownPage {
         let mut shown = ShownPage::default();
-        let mut edits: Vec<(Range<usize>, PagePart)> = Vec::new();
+        let mut edits: Vec<(Range<usize>, PageBlock)> = Vec::new();
         let mut sections = self.sections().into_iter();
         // Words of a link to nowhere, and lines of code, as far as they are read.
         let (mut unlinked, mut code) = (None, None);
@@ -175,13 +178,13 @@ impl BookPage {
                 Event::Start(Tag::Heading { .. }) => {
                     let end = range.start + self.text[range].trim_end().len();
                     let anchor = sections.next().map(|section| section.anchor).unwrap_or_default();
-                    edits.push((end..end, PagePart::Text(format!(" {{#{anchor}}}"))));
+                    edits.push((end..end, PageBlock::Text(format!(" {{#{anchor}}}"))));
                 }
-                Event::Start(Tag::Image { .. }) => edits.push((range, PagePart::Text(String::new()))),
+                Event::Start(Tag::Image { .. }) => edits.push((range, PageBlock::Text(String::new()))),
                 Event::Start(Tag::Link { dest_url, .. }) => {
-                    let is_elsewhere = dest_url.contains("://") || dest_url.starts_with('#');
-                    match BookPlace::of_link(&dest_url, self.path) {
-                        Some(place) => shown.links.push((dest_url.to_string(), place)),
+                    let is_elsewhere = dest_url.contains("://");
+                    match BookAnchor::of_link(&dest_url, self.path) {
+                        Some(anchor) => shown.links.push((dest_url.to_string(), anchor)),
                         None if !is_elsewhere => unlinked = Some(String::new()),
                         None => {}
                     }
@@ -190,17 +193,17 @@ impl BookPage {
                 Event::Text(words) | Event::Code(words) => {
                     [&mut unlinked, &mut code].into_iter().flatten().for_each(|text| text.push_str(&words));
                 }
-                Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, PagePart::Text(words)))),
+                Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, PageBlock::Text(words)))),
                 Event::End(TagEnd::CodeBlock) => {
-                    edits.extend(code.take().map(|lines| (range, PagePart::Code(lines.trim_end().to_owned()))));
+                    edits.extend(code.take().map(|lines| (range, PageBlock::Code(lines.trim_end().to_owned()))));
                 }
                 _ => {}
             }
         }
         edits.sort_by_key(|(range, _)| range.start);
-        shown.parts = parts(self.text, edits);
-        for part in &mut shown.parts {
-            let (PagePart::Text(text) | PagePart::Code(text)) = part;
+        shown.blocks = blocks(self.text, edits);
+        for block in &mut shown.blocks {
+            let (PageBlock::Text(text) | PageBlock::Code(text)) = block;
             for (character, otherwise) in WITHOUT_GLYPH {
                 *text = text.replace(character, otherwise);
             }
@@ -210,19 +213,19 @@ impl BookPage {
 }
 
 /// Text with edits, cut at its code.
-fn parts(text: &str, edits: Vec<(Range<usize>, PagePart)>) -> Vec<PagePart> {
-    let (mut parts, mut now, mut end) = (Vec::new(), String::new(), 0);
-    for (range, part) in edits {
+fn blocks(text: &str, edits: Vec<(Range<usize>, PageBlock)>) -> Vec<PageBlock> {
+    let (mut blocks, mut now, mut end) = (Vec::new(), String::new(), 0);
+    for (range, block) in edits {
         now.push_str(&text[end..range.start]);
         end = range.end;
-        match part {
-            PagePart::Text(words) => now.push_str(&words),
-            code @ PagePart::Code(_) => parts.extend([PagePart::Text(std::mem::take(&mut now)), code]),
+        match block {
+            PageBlock::Text(words) => now.push_str(&words),
+            code @ PageBlock::Code(_) => blocks.extend([PageBlock::Text(std::mem::take(&mut now)), code]),
         }
     }
     now.push_str(&text[end..]);
-    parts.push(PagePart::Text(now));
-    parts
+    blocks.push(PageBlock::Text(now));
+    blocks
 }
 
 /// Anchor of a heading, as the book has it.
@@ -238,7 +241,7 @@ pub(in crate::ui) static TITLES: LazyLock<Vec<String>> = LazyLock::new(|| PAGES.
 /// Section that a search found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::ui) struct FoundSection {
-    pub(in crate::ui) place: BookPlace,
+    pub(in crate::ui) anchor: BookAnchor,
     /// Title of the section.
     pub(in crate::ui) title: String,
 }
@@ -252,8 +255,8 @@ pub(in crate::ui) fn find_sections(query: &str) -> Vec<FoundSection> {
         for Section { title, anchor, text } in sections {
             let list = if has_all(title) { &mut by_title } else { &mut by_text };
             if has_all(&format!("{title} {text}")) {
-                let place = BookPlace { page, anchor: Some(anchor.clone()) };
-                list.push(FoundSection { place, title: title.clone() });
+                let anchor = BookAnchor { page, heading: Some(anchor.clone()) };
+                list.push(FoundSection { anchor, title: title.clone() });
             }
         }
     }
@@ -288,10 +291,10 @@ mod tests {
         let mut count = 0;
         for page in &PAGES {
             assert!(!page.title().is_empty(), "{}", page.path);
-            for (link, place) in page.shown().links {
+            for (link, to) in page.shown().links {
                 count += 1;
-                let anchors: BTreeSet<String> = PAGES[place.page].sections().into_iter().map(|s| s.anchor).collect();
-                let is_there = place.anchor.as_ref().is_none_or(|anchor| anchors.contains(anchor));
+                let anchors: BTreeSet<String> = PAGES[to.page].sections().into_iter().map(|s| s.anchor).collect();
+                let is_there = to.heading.as_ref().is_none_or(|anchor| anchors.contains(anchor));
                 assert!(is_there, "{}: {link}", page.path);
             }
         }
@@ -305,14 +308,18 @@ mod tests {
             text: "# The *paper*\n\n![A picture](a.png)\n\n[pins](../window.md#pins), [`run`](../benchmarks.md), [x](#y)\n\n\
                    ```console\n$ run\n```\n\nEnd\n",
         };
-        let ShownPage { parts, links } = page.shown();
+        let ShownPage { blocks, links } = page.shown();
         let text = "# The *paper* {#the-paper}\n\n\n\n[pins](../window.md#pins), run, [x](#y)\n\n";
-        let [before, code, after] = parts.as_slice() else { panic!("{parts:?}") };
-        assert_eq!(*before, PagePart::Text(text.to_owned()));
-        assert_eq!(*code, PagePart::Code("$ run".to_owned()));
-        assert!(matches!(after, PagePart::Text(text) if text.trim() == "End"));
-        let page = PAGES.iter().position(|page| page.path == "window.md").expect("a page");
-        assert_eq!(links, [("../window.md#pins".to_owned(), BookPlace { page, anchor: Some("pins".to_owned()) })]);
+        let [before, code, after] = blocks.as_slice() else { panic!("{blocks:?}") };
+        assert_eq!(*before, PageBlock::Text(text.to_owned()));
+        assert_eq!(*code, PageBlock::Code("$ run".to_owned()));
+        assert!(matches!(after, PageBlock::Text(text) if text.trim() == "End"));
+        let of = |path: &str, heading: &str| BookAnchor {
+            page: PAGES.iter().position(|page| page.path == path).expect("a page"),
+            heading: Some(heading.to_owned()),
+        };
+        let expected = [("../window.md#pins", of("window.md", "pins")), ("#y", of("how/paper.md", "y"))];
+        assert_eq!(links, expected.map(|(link, to)| (link.to_owned(), to)));
     }
 
     #[test]
@@ -322,10 +329,10 @@ mod tests {
         crate::ui::theme::install(&context);
         let mut missing = BTreeSet::new();
         let mut output = context.run_ui(RawInput::default(), |ui| {
-            for part in PAGES.iter().flat_map(|page| page.shown().parts) {
-                let (text, font) = match part {
-                    PagePart::Text(text) => (text, FontId::proportional(13.0)),
-                    PagePart::Code(text) => (text, FontId::monospace(12.0)),
+            for block in PAGES.iter().flat_map(|page| page.shown().blocks) {
+                let (text, font) = match block {
+                    PageBlock::Text(text) => (text, FontId::proportional(13.0)),
+                    PageBlock::Code(text) => (text, FontId::monospace(12.0)),
                 };
                 let others = text.chars().filter(|c| !c.is_ascii());
                 missing.extend(others.filter(|c| !ui.ctx().fonts_mut(|fonts| fonts.has_glyph(&font, *c))));

@@ -1,129 +1,104 @@
-//! Edge loops and rings of a mesh of polygons and triangles.
+//! Edge loops and rings of a disk of polygons and triangles.
 //!
-//! A loop goes straight on at every vertex with an even number of edges: as many edges lie on its left as on its right. A
-//! loop on the boundary follows the boundary. A ring goes from each edge of a quadrilateral to the opposite one.
+//! A loop continues straight at every vertex with an even number of edges: as many edges lie on its left as on its right.
+//! A loop on the boundary follows the boundary. A ring leads from each edge of a quadrilateral to the opposite one.
+//! Diagonals, which cut polygons into triangles, are no edges. The cost is that of the result, not of the mesh.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use freebound_core::mesh::{DiskMesh, VertexId};
+use freebound_core::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
-/// Edge by its ends, the lower number first.
-type Edge = [VertexId; 2];
+/// Edge loops and rings of a disk. Faces that fill holes do not count.
+#[derive(Clone, Copy, Debug)]
+pub struct EdgeLoops<'a>(pub &'a DiskMesh);
 
-/// Cells of a surface: polygons, and triangles that belong to none.
-#[derive(Debug)]
-pub struct EdgeLoops {
-    /// Corners of each cell, around it.
-    cells: Vec<Vec<VertexId>>,
-    /// Cells at each edge: one at the boundary, else two.
-    at_edge: BTreeMap<Edge, Vec<usize>>,
-    /// Edges at each vertex.
-    at_vertex: BTreeMap<VertexId, Vec<Edge>>,
-}
-
-fn edge(a: VertexId, b: VertexId) -> Edge {
-    if a < b { [a, b] } else { [b, a] }
-}
-
-impl EdgeLoops {
-    /// Cells of the real faces of a disk.
-    pub fn new(disk: &DiskMesh) -> Self {
-        let mesh = disk.mesh();
-        let mut is_part = vec![false; mesh.real_face_count()];
-        let mut cells = Vec::new();
-        for polygon in disk.polygons() {
-            polygon.faces().for_each(|face| is_part[face.index()] = true);
-            cells.push(polygon.corners.to_vec());
-        }
-        let triangles = mesh.real_triangles().iter().zip(&is_part);
-        cells.extend(triangles.filter(|&(_, is_part)| !is_part).map(|(corners, _)| corners.to_vec()));
-        Self::of_cells(cells)
-    }
-
-    fn of_cells(cells: Vec<Vec<VertexId>>) -> Self {
-        let mut at_edge: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
-        for (number, corners) in cells.iter().enumerate() {
-            for (place, &corner) in corners.iter().enumerate() {
-                at_edge.entry(edge(corner, corners[(place + 1) % corners.len()])).or_default().push(number);
-            }
-        }
-        let mut at_vertex: BTreeMap<VertexId, Vec<Edge>> = BTreeMap::new();
-        for &ends in at_edge.keys() {
-            for end in ends {
-                at_vertex.entry(end).or_default().push(ends);
-            }
-        }
-        Self { cells, at_edge, at_vertex }
-    }
-
-    /// Edges between these vertices.
-    fn edges_between(&self, vertices: &BTreeSet<VertexId>) -> BTreeSet<Edge> {
-        let at = |vertex| self.at_vertex.get(vertex).into_iter().flatten().copied();
-        let is_between = |ends: &Edge| ends.iter().all(|end| vertices.contains(end));
-        vertices.iter().flat_map(at).filter(is_between).collect()
+impl EdgeLoops<'_> {
+    /// True if an edge lies between two of the vertices.
+    pub fn has_edge(self, vertices: &BTreeSet<VertexId>) -> bool {
+        self.edges_between(vertices).next().is_some()
     }
 
     /// Ends of all edges of the loops through the edges between these vertices.
-    pub fn loops(&self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
-        self.reached(vertices, |at| at.iter().filter_map(|&end| self.straight_on(*at, end)).collect())
+    pub fn loops(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
+        self.reached(vertices, |side| [side, self.0.twin(side)].map(|side| self.straight_on(side)))
     }
 
     /// Ends of all edges of the rings of the edges between these vertices.
-    pub fn rings(&self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
-        self.reached(vertices, |at| self.at_edge[at].iter().filter_map(|&cell| self.opposite(*at, cell)).collect())
+    pub fn rings(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
+        self.reached(vertices, |side| [side, self.0.twin(side)].map(|side| self.opposite(side)))
     }
 
-    fn reached(&self, vertices: &BTreeSet<VertexId>, next: impl Fn(&Edge) -> Vec<Edge>) -> BTreeSet<VertexId> {
-        let mut reached = self.edges_between(vertices);
-        let mut pending: Vec<Edge> = reached.iter().copied().collect();
-        while let Some(at) = pending.pop() {
-            pending.extend(next(&at).into_iter().filter(|&other| reached.insert(other)));
-        }
-        reached.into_iter().flatten().collect()
+    /// Sides of the edges between these vertices, both of each.
+    fn edges_between(self, vertices: &BTreeSet<VertexId>) -> impl Iterator<Item = HalfedgeId> {
+        let known = vertices.iter().copied().filter(move |vertex| vertex.index() < self.0.vertex_count());
+        let among = move |side: &HalfedgeId| vertices.contains(&self.0.head(*side));
+        known.flat_map(move |vertex| self.edges_at(vertex).collect::<Vec<_>>()).filter(among)
     }
 
-    /// Edge that goes on straight from an edge at one of its ends. `None` if there is none, or no single one.
-    fn straight_on(&self, from: Edge, at: VertexId) -> Option<Edge> {
-        let edges = &self.at_vertex[&at];
-        let is_on_boundary = |ends: &&Edge| self.at_edge[*ends].len() == 1;
-        if is_on_boundary(&&from) {
-            let mut others = edges.iter().filter(is_on_boundary).filter(|&&ends| ends != from);
-            return others.next().copied().filter(|_| others.next().is_none());
-        }
-        if edges.len() % 2 == 1 || edges.iter().any(|ends| is_on_boundary(&ends)) {
-            return None;
-        }
-        // Around the vertex, cell by cell, to the edge halfway round.
-        let mut cell = self.at_edge[&from][0];
-        let mut now = from;
-        for _ in 0..edges.len() / 2 {
-            now = self.other_at(cell, now, at)?;
-            cell = *self.at_edge[&now].iter().find(|&&other| other != cell)?;
-        }
-        Some(now)
+    /// Sides of the edges that leave a vertex, counter-clockwise.
+    fn edges_at(self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> {
+        self.0.outgoing(vertex).filter(move |&side| self.is_edge(side))
     }
 
-    /// The other edge of a cell at one of its corners.
-    fn other_at(&self, cell: usize, ends: Edge, at: VertexId) -> Option<Edge> {
-        let corners = &self.cells[cell];
-        let place = corners.iter().position(|&corner| corner == at)?;
-        let neighbours = [(place + 1) % corners.len(), (place + corners.len() - 1) % corners.len()];
-        neighbours.map(|other| edge(at, corners[other])).into_iter().find(|&other| other != ends)
+    /// Face at a side, unless it fills a hole.
+    fn face(self, side: HalfedgeId) -> Option<FaceId> {
+        self.0.face_of(side).filter(|&face| !self.0.is_virtual(face))
     }
 
-    /// Opposite edge in a quadrilateral.
-    fn opposite(&self, ends: Edge, cell: usize) -> Option<Edge> {
-        let corners = self.cells[cell].as_slice();
-        let &[_, _, _, _] = corners else { return None };
+    /// True for an edge of the surface, false for a diagonal and for an edge within a filled hole.
+    fn is_edge(self, side: HalfedgeId) -> bool {
+        let faces = [side, self.0.twin(side)].map(|side| self.face(side));
+        let [a, b] = faces.map(|face| self.0.polygon_of(face?));
+        faces != [None, None] && (a.is_none() || a != b)
+    }
+
+    fn is_on_boundary(self, side: HalfedgeId) -> bool {
+        self.face(side).is_none() || self.face(self.0.twin(side)).is_none()
+    }
+
+    fn reached(
+        self,
+        vertices: &BTreeSet<VertexId>,
+        next: impl Fn(HalfedgeId) -> [Option<HalfedgeId>; 2],
+    ) -> BTreeSet<VertexId> {
+        let of_edge = |side| self.0.halfedge(self.0.edge_of(side));
+        let mut reached: BTreeSet<HalfedgeId> = self.edges_between(vertices).map(of_edge).collect();
+        let mut pending: Vec<HalfedgeId> = reached.iter().copied().collect();
+        while let Some(side) = pending.pop() {
+            let others = next(side).into_iter().flatten().map(of_edge);
+            pending.extend(others.filter(|&other| reached.insert(other)));
+        }
+        reached.into_iter().flat_map(|side| [self.0.tail(side), self.0.head(side)]).collect()
+    }
+
+    /// Edge that continues straight at the head of a side. `None` if there is none, or no single one.
+    fn straight_on(self, side: HalfedgeId) -> Option<HalfedgeId> {
+        let back = self.0.twin(side);
+        let around: Vec<HalfedgeId> = self.edges_at(self.0.head(side)).collect();
+        if self.is_on_boundary(side) {
+            let mut others = around.into_iter().filter(|&other| other != back && self.is_on_boundary(other));
+            return others.next().filter(|_| others.next().is_none());
+        }
+        let is_inside = around.len().is_multiple_of(2) && !around.iter().any(|&other| self.is_on_boundary(other));
+        let place = around.iter().position(|&other| other == back).filter(|_| is_inside)?;
+        Some(around[(place + around.len() / 2) % around.len()])
+    }
+
+    /// Opposite side in the quadrilateral at a side.
+    fn opposite(self, side: HalfedgeId) -> Option<HalfedgeId> {
+        let corners = self.0.polygon_of(self.face(side)?)?.corners;
+        let ends = [self.0.tail(side), self.0.head(side)];
         let others: Vec<VertexId> = corners.iter().copied().filter(|corner| !ends.contains(corner)).collect();
         let &[a, b] = others.as_slice() else { return None };
-        Some(edge(a, b))
+        self.edges_at(a).find(|&other| self.0.head(other) == b)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use freebound_core::mesh::PolygonMesh;
+    use freebound_testkit::disk;
 
     /// Number of quadrilaterals along a side.
     const SIDE: u32 = 4;
@@ -132,10 +107,17 @@ mod tests {
         VertexId::new(y * (SIDE + 1) + x)
     }
 
-    /// Square of quadrilaterals.
-    fn squares() -> EdgeLoops {
-        let cell = |x, y| vec![v(x, y), v(x + 1, y), v(x + 1, y + 1), v(x, y + 1)];
-        EdgeLoops::of_cells((0..SIDE * SIDE).map(|i| cell(i % SIDE, i / SIDE)).collect())
+    /// Square whose faces have these corners, for each square at a column and a row.
+    fn square(faces: impl Fn(u32, u32) -> Vec<Vec<VertexId>>) -> DiskMesh {
+        let positions: Vec<[f64; 3]> =
+            (0..=SIDE).flat_map(|y| (0..=SIDE).map(move |x| [f64::from(x), f64::from(y), 0.0])).collect();
+        let all = (0..SIDE * SIDE).flat_map(|i| faces(i % SIDE, i / SIDE));
+        let all: Vec<Vec<u32>> = all.map(|corners| corners.into_iter().map(VertexId::number).collect()).collect();
+        disk(PolygonMesh::from_arrays(&positions, &all).triangulate())
+    }
+
+    fn squares() -> DiskMesh {
+        square(|x, y| vec![vec![v(x, y), v(x + 1, y), v(x + 1, y + 1), v(x, y + 1)]])
     }
 
     fn set(vertices: impl IntoIterator<Item = VertexId>) -> BTreeSet<VertexId> {
@@ -144,28 +126,35 @@ mod tests {
 
     #[test]
     fn a_loop_of_squares_goes_from_side_to_side() {
-        let loops = squares();
+        let mesh = squares();
+        let loops = EdgeLoops(&mesh);
         assert_eq!(loops.loops(&set([v(1, 2), v(2, 2)])), set((0..=SIDE).map(|x| v(x, 2))));
         assert_eq!(loops.loops(&set([v(1, 0), v(1, 1)])), set((0..=SIDE).map(|y| v(1, y))));
         assert_eq!(loops.loops(&set([v(1, 2), v(3, 2)])), set([]), "no edge lies between them");
+        assert!(loops.has_edge(&set([v(0, 0), v(1, 0)])));
+        for diagonal in [[v(0, 0), v(1, 1)], [v(1, 0), v(0, 1)]] {
+            assert!(!loops.has_edge(&set(diagonal)));
+        }
     }
 
     #[test]
     fn a_loop_on_the_boundary_goes_around_it() {
         let rim = |i: u32| [v(i, 0), v(i, SIDE), v(0, i), v(SIDE, i)];
-        assert_eq!(squares().loops(&set([v(1, 0), v(2, 0)])), set((0..=SIDE).flat_map(rim)));
+        assert_eq!(EdgeLoops(&squares()).loops(&set([v(1, 0), v(2, 0)])), set((0..=SIDE).flat_map(rim)));
     }
 
     #[test]
     fn a_ring_of_squares_crosses_the_mesh() {
         let rungs = (0..=SIDE).flat_map(|y| [v(1, y), v(2, y)]);
-        assert_eq!(squares().rings(&set([v(1, 3), v(2, 3)])), set(rungs));
+        assert_eq!(EdgeLoops(&squares()).rings(&set([v(1, 3), v(2, 3)])), set(rungs));
     }
 
     #[test]
     fn a_loop_of_triangles_goes_straight_on_and_has_no_ring() {
-        let halves = |x, y| [vec![v(x, y), v(x + 1, y), v(x + 1, y + 1)], vec![v(x, y), v(x + 1, y + 1), v(x, y + 1)]];
-        let loops = EdgeLoops::of_cells((0..SIDE * SIDE).flat_map(|i| halves(i % SIDE, i / SIDE)).collect());
+        let mesh = square(|x, y| {
+            vec![vec![v(x, y), v(x + 1, y), v(x + 1, y + 1)], vec![v(x, y), v(x + 1, y + 1), v(x, y + 1)]]
+        });
+        let loops = EdgeLoops(&mesh);
         assert_eq!(loops.loops(&set([v(1, 2), v(2, 2)])), set((0..=SIDE).map(|x| v(x, 2))));
         assert_eq!(loops.loops(&set([v(1, 1), v(2, 2)])), set((0..=SIDE).map(|i| v(i, i))), "along the diagonals");
         assert_eq!(loops.rings(&set([v(1, 2), v(2, 2)])), set([v(1, 2), v(2, 2)]));

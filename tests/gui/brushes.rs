@@ -61,12 +61,17 @@ fn the_run_after_a_stroke_shows_in_the_frame_in_which_it_begins() {
     let mut has_run = false;
     window.harness.event(button(from + Vec2::new(30.0, 12.0), false, Modifiers::NONE));
     // The stroke begins the run once its last frame is there.
-    while !has_run || window.editor().session.is_running() {
+    for _ in 0..5000 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
         window.step();
         let is_running = window.editor().session.is_running();
         has_run |= is_running;
         assert_eq!(window.has_button("Pause"), is_running);
+        if has_run && !is_running {
+            return;
+        }
     }
+    panic!("no run begins, or it does not end: {has_run}");
 }
 
 #[test]

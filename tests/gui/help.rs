@@ -82,9 +82,27 @@ fn the_documentation_opens_turns_its_pages_and_finds_sections() {
     window.fill_in(Role::SearchInput, "Find in the documentation", "word proved");
     window.settle();
     window.click("Planar maps and proofs: The word proved");
-    assert!(window.shows("The word proved"));
+    assert!(window.shows("exact arithmetic") || window.shows("Exact arithmetic"), "{:?}", window.words());
     window.key(Key::Escape);
     assert!(!window.editor().layout.help.has_documentation());
+}
+
+#[test]
+fn links_of_a_page_lead_on_also_above_lines_of_code() {
+    let mut window = window();
+    window.menu(&["Help", "Documentation"]);
+    // The link is in the first block of the page, and blocks of code follow.
+    window.click("The command line");
+    window.harness.get_by_role_and_label(Role::Link, "the window").click();
+    window.settle();
+    assert!(window.shows("Parts of the screen"), "{:?}", window.words());
+    window.click("Back");
+    assert!(window.shows("works without a screen"));
+    // A link within the page leads past lines of code.
+    window.click("Choosing a method");
+    window.harness.get_by_role_and_label(Role::Link, "Positive weights").click();
+    window.settle();
+    assert!(window.shows("Positive weights") && !window.shows("Decision table"), "{:?}", window.words());
 }
 
 #[test]

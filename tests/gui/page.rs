@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use freebound::session::{ChartPage, LockState};
-use freebound::ui::{Editor, PageRequest, Snap};
+use freebound::ui::{Editor, GestureKind, PageRequest, Snap};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_testkit::{Random, assert_message, shaped};
@@ -141,6 +141,36 @@ fn a_lasso_adds_the_charts_that_it_meets() {
     });
     assert_eq!(selected(&window), met.collect::<Vec<_>>());
     assert!(!selected(&window).is_empty());
+}
+
+#[test]
+fn tools_of_the_bar_move_and_scale_charts_from_where_the_pointer_comes_over_the_page() {
+    let mut window = with_sheets();
+    window.editor_mut().handle(PageRequest::Pick { chart: Some(0), adds: false }.into());
+    window.settle();
+    let before = bounds(&window, 0);
+    let pivot = spot(&window, before.middle());
+    let corner = |window: &Window| spot(window, page(window).charts[0].coordinates[0]);
+    let click = |window: &mut Window, kind: GestureKind, from: Pos2, to: Pos2| {
+        let tool = window.rect(Role::Button, kind.about()).center();
+        window.click_at(tool, Modifiers::NONE);
+        for at in [from, to] {
+            window.harness.hover_at(at);
+            window.step();
+        }
+        window.click_at(to, Modifiers::NONE);
+        until_proved(window);
+    };
+    let (start, from) = (pivot + egui::vec2(0.0, 60.0), corner(&window));
+    click(&mut window, GestureKind::Move, start, start - egui::vec2(24.0, 0.0));
+    let by = corner(&window) - from;
+    assert!((by + egui::vec2(24.0, 0.0)).length() < 2.0, "{by:?}");
+    // Half the distance from the centre is half the size.
+    let pivot = pivot - egui::vec2(24.0, 0.0);
+    let arm = corner(&window) - pivot;
+    click(&mut window, GestureKind::Scale, pivot + egui::vec2(0.0, 60.0), pivot + egui::vec2(0.0, 30.0));
+    let scaled = corner(&window) - pivot;
+    assert!((scaled - 0.5 * arm).length() < 2.0, "{scaled:?} {arm:?}");
 }
 
 #[test]

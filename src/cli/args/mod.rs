@@ -164,8 +164,8 @@ pub enum Subcommands {
     Bake(Box<BakeArguments>),
     /// Carry the constraints of a mesh to another mesh of the surface, and list both vertices of each.
     ///
-    /// Vertices of meshes with equal faces keep their numbers. Otherwise each constraint goes to the nearest vertex, on
-    /// the same side of the surface, that no other constraint has.
+    /// Vertices of meshes with equal faces keep their numbers. Otherwise each constraint goes to a corner of the nearest
+    /// triangle on the same side of the surface, or to a free vertex near if other constraints have the corners.
     #[command(after_help = CARRY_HELP)]
     Carry(Box<CarryArguments>),
     /// Flatten or unwrap many meshes side by side.

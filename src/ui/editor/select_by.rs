@@ -7,21 +7,10 @@ use crate::session::{ChartState, LockState};
 use crate::ui::GOOD_ENERGY;
 use crate::ui::state::SelectBy;
 use crate::view::{EdgeLoops, VertexSets};
-use freebound_core::mesh::{DiskMesh, HalfedgeId, VertexId};
+use freebound_core::mesh::VertexId;
 
 /// Share of the area that counts as the most distorted.
 const WORST: f64 = 0.1;
-
-/// True if an edge of the real faces, but no diagonal of a polygon, lies between two of these vertices.
-fn has_edge(disk: &DiskMesh, vertices: &BTreeSet<VertexId>) -> bool {
-    let is_edge = |h: HalfedgeId| {
-        let faces = [h, disk.twin(h)].map(|side| disk.face_of(side).filter(|face| !disk.is_virtual(*face)));
-        let [a, b] = faces.map(|face| face.and_then(|face| disk.polygon_of(face)));
-        faces != [None, None] && (a.is_none() || a != b)
-    };
-    let from = |&vertex: &VertexId| disk.outgoing(vertex).filter(|&h| vertices.contains(&disk.head(h)));
-    vertices.iter().filter(|vertex| vertex.index() < disk.vertex_count()).flat_map(from).any(is_edge)
-}
 
 impl Editor {
     /// True if this way of selecting applies to what is shown.
@@ -39,8 +28,7 @@ impl Editor {
         match by {
             SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges => !self.selection.vertices().is_empty(),
             SelectBy::Loops | SelectBy::Rings => {
-                self.selection.vertices().len() > 1
-                    && scene.disk().is_some_and(|disk| has_edge(disk, self.selection.vertices()))
+                scene.disk().is_some_and(|disk| EdgeLoops(disk).has_edge(self.selection.vertices()))
             }
             SelectBy::Pins => !self.session.document().targets.is_empty(),
             SelectBy::Distorted => self
@@ -75,8 +63,8 @@ impl Editor {
             SelectBy::Grow => sets.grown(selected),
             SelectBy::Shrink => sets.shrunk(selected),
             SelectBy::SharpEdges => sets.up_to_sharp_edges(selected, self.tools.seam.rules.degrees),
-            SelectBy::Loops => EdgeLoops::new(scene.disk()?).loops(selected),
-            SelectBy::Rings => EdgeLoops::new(scene.disk()?).rings(selected),
+            SelectBy::Loops => EdgeLoops(scene.disk()?).loops(selected),
+            SelectBy::Rings => EdgeLoops(scene.disk()?).rings(selected),
             SelectBy::Boundary => sets.boundary(),
             SelectBy::Pins => self.session.document().targets.keys().copied().collect(),
             SelectBy::Distorted => {

@@ -3,12 +3,12 @@
 use eframe::egui::{self, Align2, FontFamily, FontId, Id, Role, ScrollArea, TextStyle};
 use egui_commonmark::CommonMarkViewer;
 
-use crate::ui::documentation::{BookPlace, PagePart, TITLES, find_sections};
+use crate::ui::documentation::{BookAnchor, PageBlock, TITLES, find_sections};
 use crate::ui::state::DocumentationView;
 use crate::ui::{Control, Editor, theme_of};
 
-/// Parts of the list, each with its first page.
-const PARTS: [(&str, usize); 3] = [("First steps", 0), ("Reference", 11), ("How it works", 19)];
+/// Groups of the list, each with its first page.
+const GROUPS: [(&str, usize); 3] = [("First steps", 0), ("Reference", 11), ("How it works", 19)];
 
 /// Size of the window, points.
 const SIZE: [f32; 2] = [920.0, 640.0];
@@ -55,19 +55,18 @@ fn list(ui: &mut egui::Ui, view: &mut DocumentationView) {
             ui.label("No section has all these words.");
         }
         for section in view.found.iter().filter(|_| is_search) {
-            let name = format!("{}: {}", TITLES[section.place.page], section.title);
-            let entry = ui.selectable_label(false, &section.title).named(Role::Button, &name);
-            if entry.on_hover_text(&TITLES[section.place.page]).clicked() {
-                goal = Some(section.place.clone());
+            let name = format!("{}: {}", TITLES[section.anchor.page], section.title);
+            if ui.selectable_label(false, name).clicked() {
+                goal = Some(section.anchor.clone());
             }
         }
-        for (place, title) in TITLES.iter().enumerate().filter(|_| !is_search) {
-            if let Some((part, _)) = PARTS.iter().find(|(_, first)| *first == place) {
+        for (page, title) in TITLES.iter().enumerate().filter(|_| !is_search) {
+            if let Some((group, _)) = GROUPS.iter().find(|(_, first)| *first == page) {
                 ui.add_space(4.0);
-                ui.strong(*part);
+                ui.strong(*group);
             }
-            if ui.selectable_label(view.place() == place, title).clicked() {
-                goal = Some(BookPlace { page: place, anchor: None });
+            if ui.selectable_label(view.page_number() == page, title).clicked() {
+                goal = Some(BookAnchor { page, heading: None });
             }
         }
     });
@@ -81,17 +80,18 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
     if view.can_go_back() && ui.button("Back").on_hover_text("Return to the page before").clicked() {
         view.go_back();
     }
-    let id = Id::unique("documentation page").with(view.place());
+    let id = Id::unique("documentation page").with(view.page_number());
     let mut area = ScrollArea::vertical().id_salt(id).auto_shrink(false);
     match view.take_goal() {
-        Some(BookPlace { anchor: Some(anchor), .. }) => {
-            for place in 0..view.shown.parts.len() {
-                view.cache.scroll_to_heading(&id.with(place), Some(anchor.clone()));
+        Some(BookAnchor { heading: Some(heading), .. }) => {
+            for number in 0..view.shown.blocks.len() {
+                view.cache.scroll_to_heading(&id.with(number), Some(heading.clone()));
             }
         }
-        Some(BookPlace { anchor: None, .. }) => area = area.vertical_scroll_offset(0.0),
+        Some(BookAnchor { heading: None, .. }) => area = area.vertical_scroll_offset(0.0),
         None => {}
     }
+    let mut clicked = None;
     area.show(ui, |ui| {
         // A jump to a section must not race through the page.
         ui.style_mut().scroll_animation = egui::style::ScrollAnimation::none();
@@ -99,22 +99,24 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
         ui.visuals_mut().override_text_color = None;
         ui.visuals_mut().widgets.noninteractive.fg_stroke.color = theme_of(ui).text;
         ui.style_mut().text_styles.insert(TextStyle::Heading, FontId::new(HEADING, FontFamily::Proportional));
-        for (place, part) in view.shown.parts.iter().enumerate() {
-            match part {
-                PagePart::Text(text) => {
-                    // Each part numbers its tables on its own.
-                    ui.push_id(id.with(place), |ui| {
+        for (number, block) in view.shown.blocks.iter().enumerate() {
+            match block {
+                PageBlock::Text(text) => {
+                    // Each block numbers its tables on its own.
+                    ui.push_id(id.with(number), |ui| {
                         let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
-                        viewer.show_with_id(id.with(place), ui, &mut view.cache, text);
+                        viewer.show_with_id(id.with(number), ui, &mut view.cache, text);
                     });
+                    // The next block resets the links.
+                    let is_clicked = |(link, _): &&(String, BookAnchor)| view.cache.get_link_hook(link) == Some(true);
+                    clicked = clicked.or(view.shown.links.iter().find(is_clicked));
                 }
-                PagePart::Code(lines) => code(ui, lines),
+                PageBlock::Code(lines) => code(ui, lines),
             }
         }
     });
-    let clicked = view.shown.links.iter().find(|(link, _)| view.cache.get_link_hook(link) == Some(true));
-    if let Some((_, place)) = clicked.cloned() {
-        view.go_to(place);
+    if let Some((_, goal)) = clicked.cloned() {
+        view.go_to(goal);
     }
 }
 

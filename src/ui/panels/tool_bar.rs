@@ -1,13 +1,17 @@
 //! Bar at the left: the tools of the left mouse button, and the work on the charts of the page.
 
-use eframe::egui::{self, Align2, Color32, FontId, Rect, RectAlign, Role, Sense, TextStyle, Tooltip, Vec2, WidgetInfo};
+use eframe::egui::scroll_area::ScrollBarVisibility;
+use eframe::egui::{
+    self, Align2, Color32, FontId, Rect, RectAlign, Role, ScrollArea, Sense, TextStyle, Tooltip, Vec2, WidgetInfo,
+};
 
 use crate::ui::state::{GestureKind, PageRequest};
 use crate::ui::theme::{HOVERED, SELECTED};
 use crate::ui::{Editor, Request, Tool, icons, theme_of, tip_with_keys};
 
-/// Height of the bar from which names stand below the icons, points: room for both groups.
-const NAMES_FROM: f32 = 470.0;
+/// Height beside the panes and the timeline from which names stand below the icons, points: room for both groups, also
+/// with the curves of the timeline.
+const NAMES_FROM: f32 = 610.0;
 
 /// Widths of the bar with names and without, points.
 const WIDTHS: [f32; 2] = [64.0, 44.0];
@@ -21,7 +25,7 @@ const NAMELESS: Vec2 = Vec2::splat(28.0);
 /// Side of an icon above its name, points.
 const ICON: f32 = 28.0;
 
-/// Width of the bar in a window with this height for it, points.
+/// Width of the bar, points, in a window with this height for it and the timeline.
 pub(in crate::ui) fn tool_bar_width(height: f32) -> f32 {
     WIDTHS[usize::from(height < NAMES_FROM)]
 }
@@ -42,6 +46,12 @@ struct ToolButton<'a> {
 pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let has_names = ui.available_width() > NAMELESS.x + 12.0;
     ui.spacing_mut().item_spacing.y = 4.0;
+    // A low window scrolls the bar.
+    let area = ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
+    area.show(ui, |ui| tools(ui, editor, has_names, requests));
+}
+
+fn tools(ui: &mut egui::Ui, editor: &Editor, has_names: bool, requests: &mut Vec<Request>) {
     ui.vertical_centered(|ui| {
         for tool in Tool::ALL {
             let [_, name, _, about] = tool.words();

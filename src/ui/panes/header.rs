@@ -67,6 +67,11 @@ fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<R
         let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
         switch.asks(Request::ToggleHull, requests);
     }
+    if pane == Pane::Mesh && editor.selection.through {
+        let tip = "Vertices behind the mesh are picked and selected, too. Click: only those that are seen";
+        let tip = tip_with_keys(ui, tip, &Request::ToggleThrough);
+        ui.selectable_label(true, "X-ray").on_hover_text(tip).asks(Request::ToggleThrough, requests);
+    }
     if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
         let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
         let wire = ui.selectable_label(editor.pane_shading.wireframe, "Wire").on_hover_text(tip);

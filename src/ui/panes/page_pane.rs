@@ -11,7 +11,7 @@ use super::{legend, mesh_pane, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
 use crate::session::ChartPage;
 use crate::ui::editor::PageScene;
-use crate::ui::state::{GestureKind, PageRequest, Viewport, in_pane, size_of};
+use crate::ui::state::{GestureKind, PageGesture, PageRequest, Viewport, in_pane, size_of};
 use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of};
 use crate::view::{EdgeList, OrbitCamera, PlaneCamera};
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, corner_of_tile};
@@ -54,7 +54,7 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     }
     if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
         let mut charts = scene.charts_within(|at| region.contains(view.spot(at)));
-        charts.extend(region.line().iter().filter_map(|&at| scene.chart_at(view.point_at(at))));
+        charts.extend(region.line().into_iter().filter_map(|at| scene.chart_at(view.point_at(at))));
         requests.push(PageRequest::Add(charts).into());
     }
     click(ui, response, editor, requests);
@@ -88,7 +88,7 @@ impl Grip {
                 if !editor.plane.page.selected().contains(&chart) {
                     editor.handle(PageRequest::Pick { chart: Some(chart), adds: false }.into());
                 }
-                editor.begin_gesture(GestureKind::Move, from, true);
+                editor.begin_gesture(GestureKind::Move, Some(from), true);
             }
         }
         Self { holds_charts: editor.plane.page.gesture().is_some() }
@@ -97,7 +97,8 @@ impl Grip {
 
 /// Lets a gesture follow the pointer, and ends a drag with its button.
 fn follow(ui: &egui::Ui, response: &Response, editor: &mut Editor, place: Option<DVec2>) {
-    let Some(is_drag) = editor.plane.page.gesture().map(|gesture| gesture.is_drag) else { return };
+    let Some(&PageGesture { is_drag, has_start, .. }) = editor.plane.page.gesture() else { return };
+    let place = place.filter(|_| has_start || response.contains_pointer());
     let modifiers = ui.input(|input| input.modifiers);
     editor.follow_gesture(place, modifiers.command, modifiers.alt);
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
@@ -150,10 +151,11 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
     if let Some(region) = draw_region(ui, response, editor, Pane::Mesh) {
         let view = Viewport { rect, camera };
         let is_in_region = |at| view.spot(at).is_some_and(|at| region.contains(at));
-        let is_inside = |chart: &usize| scene.has_seen_vertex(*chart, camera.eye(), is_in_region);
+        let eye = (!editor.selection.through).then(|| camera.eye());
+        let is_inside = |chart: &usize| scene.has_vertex_within(*chart, eye, is_in_region);
         let mut charts: Vec<usize> = (0..scene.spans.len()).filter(is_inside).collect();
-        let under = |&at: &Pos2| scene.chart_hit(camera.ray(in_pane(rect, at), size_of(rect)));
-        charts.extend(region.line().iter().filter_map(under));
+        let under = |at| scene.chart_hit(camera.ray(in_pane(rect, at), size_of(rect)));
+        charts.extend(region.line().into_iter().filter_map(under));
         requests.push(PageRequest::Add(charts).into());
     }
     if response.clicked() && editor.plane.page.gesture().is_none() {

@@ -53,12 +53,20 @@ impl Region {
         }
     }
 
-    /// Points on the line of a stroke, which also selects what it crosses. Empty for other regions.
-    pub(super) fn line(&self) -> &[Pos2] {
-        match self {
-            Self::Stroke(points, _) => points,
-            Self::Box(_) | Self::Lasso(..) => &[],
-        }
+    /// Points along the line of a stroke, close to each other: it also selects what it crosses. Empty for other regions.
+    pub(super) fn line(&self) -> Vec<Pos2> {
+        let Self::Stroke(points, _) = self else { return Vec::new() };
+        let along = |ends: &[Pos2]| {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a number of points on a screen"
+            )]
+            let count = (ends[0].distance(ends[1]) / STEP).ceil().clamp(1.0, 1000.0) as u16;
+            let [start, end] = [ends[0], ends[1]];
+            (1..=count).map(move |step| start + (end - start) * (f32::from(step) / f32::from(count)))
+        };
+        points.first().copied().into_iter().chain(points.windows(2).flat_map(along)).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use eframe::egui::KeyboardShortcut;
 use egui_commonmark::CommonMarkCache;
 
-use crate::ui::documentation::{BookPlace, FoundSection, PAGES, ShownPage};
+use crate::ui::documentation::{BookAnchor, FoundSection, PAGES, ShownPage};
 
 /// Greatest number of recent commands.
 const MOST_RECENT: usize = 8;
@@ -47,62 +47,63 @@ pub(in crate::ui) struct DocumentationView {
     pub(in crate::ui) has_focus: bool,
     /// Sections that the search found.
     pub(in crate::ui) found: Vec<FoundSection>,
-    place: BookPlace,
+    /// Page, and the heading that was asked for.
+    now: BookAnchor,
     pub(in crate::ui) shown: ShownPage,
-    /// Place to scroll to in the next frame.
-    goal: Option<BookPlace>,
-    /// Places before this one.
-    before: Vec<BookPlace>,
+    /// Heading to scroll to in the next frame.
+    goal: Option<BookAnchor>,
+    /// Pages before this one.
+    before: Vec<BookAnchor>,
     /// State of the viewer.
     pub(in crate::ui) cache: CommonMarkCache,
 }
 
 impl DocumentationView {
-    fn new(place: BookPlace) -> Self {
+    fn new(anchor: BookAnchor) -> Self {
         let mut view = Self {
             query: String::new(),
             has_focus: false,
             found: Vec::new(),
-            place: place.clone(),
+            now: anchor.clone(),
             shown: ShownPage::default(),
             goal: None,
             before: Vec::new(),
             cache: CommonMarkCache::default(),
         };
-        view.show(place);
+        view.show(anchor);
         view
     }
 
     /// Number of the page.
-    pub(in crate::ui) fn place(&self) -> usize {
-        self.place.page
+    pub(in crate::ui) fn page_number(&self) -> usize {
+        self.now.page
     }
 
-    pub(in crate::ui) fn go_to(&mut self, place: BookPlace) {
-        self.before.push(self.place.clone());
-        self.show(place);
+    pub(in crate::ui) fn go_to(&mut self, anchor: BookAnchor) {
+        self.before.push(self.now.clone());
+        self.show(anchor);
     }
 
     pub(in crate::ui) fn can_go_back(&self) -> bool {
         !self.before.is_empty()
     }
 
-    /// Returns to the place before.
+    /// Returns to the page before.
     pub(in crate::ui) fn go_back(&mut self) {
-        if let Some(place) = self.before.pop() {
-            self.show(place);
+        if let Some(anchor) = self.before.pop() {
+            self.show(anchor);
         }
     }
 
-    /// Place on the page to scroll to, once.
-    pub(in crate::ui) fn take_goal(&mut self) -> Option<BookPlace> {
+    /// Heading to scroll to, once.
+    pub(in crate::ui) fn take_goal(&mut self) -> Option<BookAnchor> {
         self.goal.take()
     }
 
-    fn show(&mut self, place: BookPlace) {
-        self.shown = PAGES[place.page].shown();
-        self.goal = Some(place.clone());
-        self.place = place;
+    fn show(&mut self, anchor: BookAnchor) {
+        self.shown = PAGES[anchor.page].shown();
+        self.goal = Some(anchor.clone());
+        self.now = anchor;
         self.cache.link_hooks_clear();
         for (link, _) in &self.shown.links {
             self.cache.add_link_hook(link.clone());
@@ -137,9 +138,9 @@ impl Help {
     pub(in crate::ui) fn show_documentation(&mut self, place: Option<&str>) {
         self.documentation = match (place, self.documentation.take()) {
             (None, Some(_)) => None,
-            (place, None) => Some(DocumentationView::new(BookPlace::of(place.unwrap_or_default()))),
+            (place, None) => Some(DocumentationView::new(BookAnchor::of(place.unwrap_or_default()))),
             (Some(place), Some(mut view)) => {
-                view.go_to(BookPlace::of(place));
+                view.go_to(BookAnchor::of(place));
                 Some(view)
             }
         };

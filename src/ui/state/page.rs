@@ -192,6 +192,8 @@ pub(in crate::ui) struct PageGesture {
     typed: String,
     /// True if the gesture ends when the button is released.
     pub(in crate::ui) is_drag: bool,
+    /// True once the pointer was over the page.
+    pub(in crate::ui) has_start: bool,
 }
 
 /// Places that a gesture snaps to.
@@ -210,7 +212,7 @@ pub(in crate::ui) struct SnapPlaces {
 
 impl PageGesture {
     pub(in crate::ui) fn new(kind: GestureKind, charts: BTreeSet<usize>, bounds: Bounds, from: DVec2) -> Self {
-        Self { kind, charts, bounds, from, to: from, axis: None, typed: String::new(), is_drag: false }
+        Self { kind, charts, bounds, from, to: from, axis: None, typed: String::new(), is_drag: false, has_start: true }
     }
 
     /// Gesture that ends when the button is released, or by a click or a key.
@@ -218,7 +220,15 @@ impl PageGesture {
         Self { is_drag, ..self }
     }
 
+    /// Gesture that begins away from the page: its start is the first place of the pointer over the page.
+    pub(in crate::ui) fn begun_elsewhere(self) -> Self {
+        Self { has_start: false, ..self }
+    }
+
     pub(in crate::ui) fn follow(&mut self, pointer: DVec2) {
+        if !std::mem::replace(&mut self.has_start, true) {
+            self.from = pointer;
+        }
         self.to = pointer;
     }
 

@@ -13,7 +13,7 @@ pub enum SelectBy {
     Shrink,
     /// Adds faces until sharp edges.
     SharpEdges,
-    /// Goes straight on along edges.
+    /// Follows edges straight.
     Loops,
     /// Goes across quadrilaterals, from edge to opposite edge.
     Rings,
@@ -65,7 +65,7 @@ impl SelectBy {
             Self::SharpEdges => {
                 ["Select up to sharp edges", "Faces that are reached from the selection without crossing a sharp edge"]
             }
-            Self::Loops => ["Select edge loops", "From each selected edge straight on, to its end or around"],
+            Self::Loops => ["Select edge loops", "From each selected edge straight, to its end or around"],
             Self::Rings => ["Select edge rings", "From each selected edge across quadrilaterals to the opposite edge"],
             Self::Boundary => ["Select the boundary", "Vertices of the boundary, and of holes that were filled"],
             Self::Pins => ["Select the pins", "Vertices with pins, or charts with them"],

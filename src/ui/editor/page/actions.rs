@@ -37,16 +37,7 @@ impl Editor {
             }
             PageRequest::Open(chart) => self.open_chart(chart),
             PageRequest::Begin(kind) => {
-                let from = self.pointer.in_embedding();
-                let middle = self
-                    .plane
-                    .page
-                    .scene
-                    .as_ref()
-                    .map(|scene| scene.bounds_of(self.plane.page.selected().iter().copied()));
-                if let Some(from) = from.or(middle.map(Bounds::middle)) {
-                    self.begin_gesture(kind, from, false);
-                }
+                self.begin_gesture(kind, self.pointer.in_embedding(), false);
             }
             PageRequest::Lock(axis) => self.change_gesture(|gesture| gesture.lock(axis)),
             PageRequest::Type(letter) => self.change_gesture(|gesture| gesture.type_letter(letter)),

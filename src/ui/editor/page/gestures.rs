@@ -13,9 +13,9 @@ use freebound_core::geom::Bounds;
 const REACH: f64 = 8.0;
 
 impl Editor {
-    /// Starts a gesture on the selected charts at a point of the page's plane. Returns true if there is something to
-    /// move.
-    pub(in crate::ui) fn begin_gesture(&mut self, kind: GestureKind, from: DVec2, is_drag: bool) -> bool {
+    /// Starts a gesture on the selected charts at a point of the page's plane. Without a point, it starts where the
+    /// pointer comes over the page. Returns true if there is something to move.
+    pub(in crate::ui) fn begin_gesture(&mut self, kind: GestureKind, from: Option<DVec2>, is_drag: bool) -> bool {
         let Some(scene) = self.plane.page.scene.as_ref().filter(|_| self.session.can_move_charts()) else {
             return false;
         };
@@ -24,7 +24,8 @@ impl Editor {
             return false;
         }
         let bounds = scene.bounds_of(charts.iter().copied());
-        self.plane.page.gesture = Some(PageGesture::new(kind, charts, bounds, from).with_drag(is_drag));
+        let gesture = PageGesture::new(kind, charts, bounds, from.unwrap_or(bounds.middle())).with_drag(is_drag);
+        self.plane.page.gesture = Some(if from.is_some() { gesture } else { gesture.begun_elsewhere() });
         true
     }
 

@@ -173,11 +173,17 @@ impl PageScene {
         self.picker.hit(ray).map(|hit| hit.point)
     }
 
-    /// True if a vertex of a chart is seen from the eye at a place that counts. `is_inside` decides about places.
-    pub(in crate::ui) fn has_seen_vertex(&self, chart: usize, eye: DVec3, is_inside: impl Fn(DVec3) -> bool) -> bool {
+    /// True if a vertex of a chart is seen from the eye at a place that counts. Without an eye, hidden vertices count,
+    /// too. `is_inside` decides about places.
+    pub(in crate::ui) fn has_vertex_within(
+        &self,
+        chart: usize,
+        eye: Option<DVec3>,
+        is_inside: impl Fn(DVec3) -> bool,
+    ) -> bool {
         let vertices = self.spans.get(chart).into_iter().flat_map(|span| span.vertices.clone());
         let mut vertices = vertices.map(VertexId::from_index).zip(self.points_of([chart]));
-        vertices.any(|(vertex, at)| is_inside(at) && self.picker.is_visible(vertex, eye))
+        vertices.any(|(vertex, at)| is_inside(at) && eye.is_none_or(|eye| self.picker.is_visible(vertex, eye)))
     }
 
     /// Chart that a ray meets first.
