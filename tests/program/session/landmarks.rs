@@ -7,10 +7,12 @@ use freebound_core::geom::VAxis;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::PinKind;
 use freebound_io::{LandmarkSet, PinName, ProjectFile, parse_pts};
-use glam::DVec2;
+use freebound_testkit::{shaped, write_obj};
+use glam::{DVec2, DVec3};
+use tempfile::TempDir;
 
 use super::basics::{session, settle, settled};
-use super::documents::{id, place, with_dome, write_picture};
+use super::documents::{id, place, with_dome, write_dome, write_picture};
 
 fn name(text: &str) -> PinName {
     PinName::new(text).unwrap()
@@ -95,6 +97,46 @@ fn the_pins_of_a_project_are_carried_to_another_mesh_in_one_step() {
     assert!(session.messages().iter().any(|message| message.vertices == [id(3), id(8)]), "for a look at them");
     settled(&mut session, Action::Undo);
     assert!(session.document().targets.is_empty() && session.document().notes.is_empty());
+}
+
+/// Session with a dome of other faces, moved and scaled, and a project with two pins of the first dome.
+fn with_project_of_another_dome() -> (TempDir, Session, PathBuf) {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 0, Target::hard(DVec2::new(0.25, 0.125)));
+    place(&mut session, 34, Target::hard(DVec2::new(0.75, 0.5)));
+    let project = folder.path().join("dome.freebound");
+    settled(&mut session, Action::SaveProject(project.clone()));
+    let other = folder.path().join("other.obj");
+    let mut mesh = shaped(12, 8, |x, y| {
+        let (x, y) = (x / 2.0, y / 2.0);
+        DVec3::new(x, y, 3.0 - 0.12 * (DVec2::new(x, y) - DVec2::new(3.0, 2.0)).length_squared())
+    });
+    mesh.positions.iter_mut().for_each(|place| *place = 10.0 * *place + DVec3::splat(700.0));
+    write_obj(&other, &mesh);
+    settled(&mut session, Action::Open(other));
+    (folder, session, project)
+}
+
+#[test]
+fn the_pins_of_a_project_go_to_the_same_places_of_other_faces_however_large_they_are() {
+    let (_folder, mut session, project) = with_project_of_another_dome();
+    settled(&mut session, Action::ImportConstraints(project));
+    // Corners of both domes.
+    let targets: Vec<_> = session.document().targets.iter().map(|(&vertex, target)| (vertex, target.uv.x)).collect();
+    assert_eq!(targets, [(id(0), 0.25), (id(116), 0.75)]);
+}
+
+#[test]
+fn the_other_side_of_the_picture_and_a_changed_mesh_are_minded() {
+    let (folder, mut session, project) = with_project_of_another_dome();
+    settled(&mut session, Action::SetVAxis(VAxis::Down));
+    settled(&mut session, Action::ImportConstraints(project.clone()));
+    assert_eq!(session.document().targets[&id(0)].uv, DVec2::new(0.25, 0.875));
+    settled(&mut session, Action::UnpinAll);
+    write_dome(&folder.path().join("dome.obj"), 6, 3);
+    settled(&mut session, Action::ImportConstraints(project));
+    assert!(session.document().targets.is_empty());
+    assert!(session.messages().iter().any(|message| message.remedy.is_some()));
 }
 
 #[test]
