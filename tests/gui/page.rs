@@ -148,6 +148,13 @@ fn tools_of_the_bar_move_and_scale_charts_from_where_the_pointer_comes_over_the_
     let mut window = with_sheets();
     window.editor_mut().handle(PageRequest::Pick { chart: Some(0), adds: false }.into());
     window.settle();
+    // From far, there is room beside the page.
+    let (unit, phase) = (egui::MouseWheelUnit::Line, egui::TouchPhase::Move);
+    let (delta, modifiers, source) = (egui::vec2(0.0, -12.0), Modifiers::NONE, egui::MouseWheelSource::Wheel);
+    window.harness.hover_at(window.plane_view().center());
+    window.step();
+    window.harness.event(egui::Event::MouseWheel { unit, delta, phase, source, modifiers });
+    window.settle();
     let before = bounds(&window, 0);
     let pivot = spot(&window, before.middle());
     let corner = |window: &Window| spot(window, page(window).charts[0].coordinates[0]);
@@ -162,11 +169,13 @@ fn tools_of_the_bar_move_and_scale_charts_from_where_the_pointer_comes_over_the_
         until_proved(window);
     };
     let (start, from) = (pivot + egui::vec2(0.0, 60.0), corner(&window));
-    click(&mut window, GestureKind::Move, start, start - egui::vec2(24.0, 0.0));
+    let way = spot(&window, before.middle() - DVec2::X) - pivot;
+    assert!(window.plane_view().contains(start + way), "{start:?} {way:?}");
+    click(&mut window, GestureKind::Move, start, start + way);
     let by = corner(&window) - from;
-    assert!((by + egui::vec2(24.0, 0.0)).length() < 2.0, "{by:?}");
+    assert!((by - way).length() < 2.0, "{by:?} {way:?}");
     // Half the distance from the centre is half the size.
-    let pivot = pivot - egui::vec2(24.0, 0.0);
+    let pivot = pivot + way;
     let arm = corner(&window) - pivot;
     click(&mut window, GestureKind::Scale, pivot + egui::vec2(0.0, 60.0), pivot + egui::vec2(0.0, 30.0));
     let scaled = corner(&window) - pivot;
