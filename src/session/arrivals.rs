@@ -28,8 +28,8 @@ impl Session {
         });
     }
 
-    /// Reads constraints, landmarks of the picture, or the constraints of a project, in the background. They belong to the mesh that is being opened,
-    /// else to the open one.
+    /// Reads constraints, landmarks of the picture, or the constraints of a project, in the background. They belong to
+    /// the mesh that is being opened, else to the open one.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
         if self.files.is_loading() {
             return self.files.import_after(path);

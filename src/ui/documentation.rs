@@ -76,8 +76,8 @@ pub(in crate::ui) struct BookAnchor {
 }
 
 impl BookAnchor {
-    /// Target of a link such as `window.md#pins` or `#pins` from a page of this path. `None` if it leads to no page of the
-    /// list.
+    /// Target of a link such as `window.md#pins` or `#pins` from a page of this path. `None` if it leads to no page of
+    /// the list.
     fn of_link(link: &str, from: &str) -> Option<Self> {
         let (path, anchor) = link.split_once('#').map_or((link, None), |(path, anchor)| (path, Some(anchor)));
         let mut names: Vec<&str> = from.split('/').collect();
@@ -112,7 +112,7 @@ pub(in crate::ui) struct Section {
 /// Block of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum PageBlock {
-    /// Markdown text: headings have their anchors, pictures are left out, and only links that lead somewhere stay links.
+    /// Markdown text: headings have their anchors, and pictures are left out. Only links that lead somewhere stay links.
     Text(String),
     /// Lines of code.
     Code(String),

@@ -103,6 +103,29 @@ fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
 }
 
 #[test]
+fn controls_of_the_comparison_lie_beside_each_other_in_the_least_window() {
+    let mut window = small(LaunchFile::default(), 0);
+    for with_panels in [true, false] {
+        if window.editor().layout.panels_shown() != with_panels {
+            window.editor_mut().handle(Request::TogglePanels);
+        }
+        if !window.has_button("Leave the comparison") {
+            window.editor_mut().handle(Request::ToggleComparison);
+        }
+        window.settle();
+        let below = window.rect(Role::Button, "Leave the comparison").bottom();
+        let panels = if with_panels { window.editor().layout.panel_width() } else { 0.0 };
+        let bar = Rect::from_min_max(egui::pos2(44.0, 31.0), egui::pos2(LEAST.x - panels, below + 4.0));
+        let names: Vec<String> = things_in(&window, bar).into_iter().map(|(name, _)| name).collect();
+        for name in ["Methods that are compared", "Colours of the comparison", "Table", "Morph", "Leave the comparison"]
+        {
+            assert!(names.iter().any(|other| other == name), "{name}: {names:?}");
+        }
+        assert_apart(&window, bar, &format!("comparison, panels {with_panels}"));
+    }
+}
+
+#[test]
 fn a_pane_that_a_person_made_narrow_keeps_its_bar_in_order() {
     let mut window = small(LaunchFile::default(), 0);
     window.editor_mut().handle(Request::ShowTab(Tab::Method));

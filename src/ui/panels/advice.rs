@@ -135,8 +135,8 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
         }
         Advice::Unwrap(energy) => {
             let tip = format!(
-                "Energy {}. Seams lower it to at most {GOOD_ENERGY}, which is hardly visible. Undo returns to the mesh without \
-                 seams",
+                "Energy {}. Seams lower it to at most {GOOD_ENERGY}, which is hardly visible. Undo returns to the mesh \
+                 without seams",
                 short(energy)
             );
             (Button::new(words), tip, Request::Do(Action::Unwrap(None)))

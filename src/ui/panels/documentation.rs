@@ -3,12 +3,13 @@
 use eframe::egui::{self, Align2, FontFamily, FontId, Id, Role, ScrollArea, TextStyle};
 use egui_commonmark::CommonMarkViewer;
 
-use crate::ui::documentation::{BookAnchor, PageBlock, TITLES, find_sections};
+use crate::ui::documentation::{BookAnchor, PAGES, PageBlock, TITLES, find_sections};
 use crate::ui::state::DocumentationView;
 use crate::ui::{Control, Editor, theme_of};
 
 /// Groups of the list, each with its first page.
-const GROUPS: [(&str, usize); 3] = [("First steps", 0), ("Reference", 11), ("How it works", 19)];
+const GROUPS: [(&str, &str); 3] =
+    [("First steps", "introduction.md"), ("Reference", "window.md"), ("How it works", "how/paper.md")];
 
 /// Size of the window, points.
 const SIZE: [f32; 2] = [920.0, 640.0];
@@ -61,7 +62,7 @@ fn list(ui: &mut egui::Ui, view: &mut DocumentationView) {
             }
         }
         for (page, title) in TITLES.iter().enumerate().filter(|_| !is_search) {
-            if let Some((group, _)) = GROUPS.iter().find(|(_, first)| *first == page) {
+            if let Some((group, _)) = GROUPS.iter().find(|(_, first)| *first == PAGES[page].path) {
                 ui.add_space(4.0);
                 ui.strong(*group);
             }

@@ -65,7 +65,8 @@ pub(super) fn bar(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec
 
 fn sliders(ui: &mut egui::Ui, choice: BrushChoice, requests: &mut Vec<Request>) {
     let mut next = choice;
-    ui.spacing_mut().slider_width = 80.0;
+    // Room for the number and the name beside the slider.
+    ui.spacing_mut().slider_width = (ui.available_width() - 130.0).clamp(24.0, 80.0);
     let size = egui::Slider::new(&mut next.radius, BrushChoice::RADII).logarithmic(true).text("Size").suffix(" pt");
     ui.add(size.max_decimals(0)).on_hover_text("Radius of the brush in points of the screen ([ and ], Alt + wheel)");
     if choice.kind != BrushKind::Grab {

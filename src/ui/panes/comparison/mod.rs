@@ -39,6 +39,9 @@ const ROOM_FOR_BOTH: f32 = 480.0;
 /// Least width of a pane with a title in its bar, points.
 const ROOM_FOR_WORDS: f32 = 640.0;
 
+/// Least width of a pane whose bar is a single row, points.
+const ROOM_FOR_ONE_ROW: f32 = 400.0;
+
 pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let is_roomy = ui.available_height() - BAR >= ROOM_FOR_BOTH;
     editor.plane.comparison.set_roomy(is_roomy);
@@ -85,33 +88,51 @@ fn nothing_to_compare(editor: &Editor) -> Option<Vec<&'static str>> {
 
 /// Bar with title, methods, colours, table, exports, and the button to close.
 fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let is_roomy = ui.available_width() >= ROOM_FOR_WORDS;
-    ui.horizontal(|ui| {
-        ui.set_min_height(BAR);
-        ui.add_space(8.0);
-        if is_roomy {
+    let width = ui.available_width();
+    let has_one_row = width >= ROOM_FOR_ONE_ROW;
+    row(ui, |ui| {
+        if width >= ROOM_FOR_WORDS {
             ui.strong("Methods side by side");
         }
         chooser::chooser(ui, editor, requests);
-        colours(ui, editor, requests);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add_space(4.0);
-            let tip = tip_with_keys(ui, "Show the embedding of the document again", &Request::ToggleComparison);
-            let back = ui.add(egui::Button::new("Back").frame(false)).on_hover_text(tip);
-            back.named(Role::Button, "Leave the comparison").asks(Request::ToggleComparison, requests);
-            let (glyph, words) = match editor.layout.full() {
-                Some(_) => ("Both", "Show both panes"),
-                None => ("Full", "Show this pane alone"),
-            };
-            let full = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(words);
-            let full = full.named(Role::Button, &format!("{words}: Comparison"));
-            full.asks(Request::ToggleFull(Pane::Plane), requests);
-            exports(ui, editor, requests);
-            morph_switch(ui, editor, requests);
-            if !editor.plane.comparison.morph.is_shown() {
-                numbers_switch(ui, editor, requests);
-            }
-        });
+        let others = if has_one_row { 220.0 } else { 4.0 };
+        colours(ui, editor, ui.available_width() - others, requests);
+        if has_one_row {
+            switches(ui, editor, requests);
+        }
+    });
+    if !has_one_row {
+        row(ui, |ui| switches(ui, editor, requests));
+    }
+}
+
+fn row(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(BAR);
+        ui.add_space(8.0);
+        add(ui);
+    });
+}
+
+/// Switches of the bar, exports, and the buttons for full size and to close, from the right.
+fn switches(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.add_space(4.0);
+        let tip = tip_with_keys(ui, "Show the embedding of the document again", &Request::ToggleComparison);
+        let back = ui.add(egui::Button::new("Back").frame(false)).on_hover_text(tip);
+        back.named(Role::Button, "Leave the comparison").asks(Request::ToggleComparison, requests);
+        let (glyph, words) = match editor.layout.full() {
+            Some(_) => ("Both", "Show both panes"),
+            None => ("Full", "Show this pane alone"),
+        };
+        let full = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(words);
+        let full = full.named(Role::Button, &format!("{words}: Comparison"));
+        full.asks(Request::ToggleFull(Pane::Plane), requests);
+        exports(ui, editor, requests);
+        morph_switch(ui, editor, requests);
+        if !editor.plane.comparison.morph.is_shown() {
+            numbers_switch(ui, editor, requests);
+        }
     });
 }
 
@@ -132,10 +153,12 @@ fn morph_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
 }
 
 /// List of the quantities that colour the faces.
-fn colours(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+fn colours(ui: &mut egui::Ui, editor: &Editor, room: f32, requests: &mut Vec<Request>) {
     let now = editor.plane.comparison.quantity();
     let title = |quantity: Option<Quantity>| quantity.map_or("Plain", Quantity::title);
-    let width = ui.spacing().combo_width.min((ui.available_width() - 220.0).max(60.0));
+    let width = ui.spacing().combo_width.min(room.max(60.0));
+    // Truncate a long name.
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
     let menu = crate::ui::list(ui, "Colours of the comparison", width, title(now), |ui| {
         for quantity in std::iter::once(None).chain(Quantity::ALL.map(Some)) {
             let entry = ui.selectable_label(now == quantity, title(quantity));
