@@ -9,9 +9,9 @@ use super::places::OutputPaths;
 use super::progress::{ProgressLine, go_on};
 use super::standard::read_typed;
 use super::summary::{carry_summary, deliver_beside};
-use super::transfer::refuse_two_streams;
+use super::transfer::{mesh_as_read, refuse_two_streams};
 use freebound_io::{
-    Constraints, MeshReport, Registration, Report, Seconds, carried_constraints, write_atomically, write_constraints,
+    Constraints, Registration, Report, Seconds, carried_constraints, write_atomically, write_constraints,
     write_to_standard_output,
 };
 
@@ -47,9 +47,7 @@ pub(super) fn run(arguments: &CarryArguments) -> Result<CommandOutcome, CommandE
             write_atomically(&arguments.output, |out| write_constraints(out, targets, notes))?;
         }
         let write = before_writing.elapsed().as_secs_f64();
-        let (vertices, faces) = (new.source.polygons.positions.len(), new.source.polygons.face_count());
-        let warnings = new.source.warnings.clone();
-        let mesh = MeshReport { path: new.path_words(), vertices, faces, warnings, ..MeshReport::default() };
+        let mesh = mesh_as_read(&new, new.source.polygons.face_count());
         let total = start.elapsed().as_secs_f64();
         let seconds = Seconds { read, solve, write, total, ..Seconds::default() };
         let report = Report { carried: Some(carried.report.clone()), seconds, ..Report::of_mesh(mesh) };

@@ -144,9 +144,7 @@ pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, Comm
         let before_writing = Instant::now();
         write_atomically(&arguments.output, |out| write_png(&baked.picture, out))?;
         let write = before_writing.elapsed().as_secs_f64();
-        let (vertices, faces) = (new.source.polygons.positions.len(), new_layout.mesh.face_count());
-        let warnings = new.source.warnings.clone();
-        let mesh = MeshReport { path: new.path_words(), vertices, faces, warnings, ..MeshReport::default() };
+        let mesh = mesh_as_read(&new, new_layout.mesh.face_count());
         let total = start.elapsed().as_secs_f64();
         let seconds = Seconds { read, solve, write, total, ..Seconds::default() };
         let report = Report { baked: Some(baked.report), seconds, ..Report::of_mesh(mesh) };
@@ -154,6 +152,12 @@ pub(super) fn run_bake(arguments: &BakeArguments) -> Result<CommandOutcome, Comm
         deliver(&report, arguments.report.as_deref(), || bake_summary(&report, &arguments.output, size))?;
         Ok(CommandOutcome::Fine)
     })
+}
+
+/// Report of a mesh that is neither repaired nor flattened, with this number of faces.
+pub(super) fn mesh_as_read(model: &Model, faces: usize) -> MeshReport {
+    let (vertices, warnings) = (model.source.polygons.positions.len(), model.source.warnings.clone());
+    MeshReport { path: model.path_words(), vertices, faces, warnings, ..MeshReport::default() }
 }
 
 /// Picture of the old layout: the requested one, or that of the materials.

@@ -76,7 +76,7 @@ fn selected_by(by: SelectBy) -> usize {
         SelectBy::Invert => 80,
         SelectBy::Grow => 7,
         SelectBy::Shrink => 0,
-        // A single vertex has no edge to go on from.
+        // A single vertex has no edge.
         SelectBy::Loops | SelectBy::Rings => 1,
         _ => panic!("{by:?} has a key that no test knows"),
     }

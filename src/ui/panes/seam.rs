@@ -277,7 +277,7 @@ fn by(rule: SeamRule) -> Request {
 fn measure(ui: &mut egui::Ui, creases: f64, requests: &mut Vec<Request>) {
     let mut percent = 100.0 * creases;
     ui.weak("Short");
-    ui.spacing_mut().slider_width = (ui.available_width() - 72.0).clamp(24.0, 72.0);
+    ui.spacing_mut().slider_width = (ui.available_width() - 80.0).clamp(24.0, 72.0);
     let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
     let response = ui.add(slider).on_hover_text(
         "Course of paths. 0 %: shortest way; 100 %: along sharp creases, even on a long detour. Type a number; \
