@@ -66,6 +66,17 @@ pub struct BrushDab {
     pub at: DVec2,
 }
 
+/// Brush on a chart of the page. Radius and position are in the page's plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PageDab {
+    /// The chart.
+    pub chart: usize,
+    /// The brush and its position.
+    pub dab: BrushDab,
+    /// True if the chart may come to overlap others.
+    pub insists: bool,
+}
+
 /// Request of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
@@ -186,6 +197,8 @@ pub enum Action {
     MovePins(Vec<(VertexId, DVec2)>),
     /// Applies a brush to the map on the screen, as a frame of a stroke.
     Brush(BrushDab),
+    /// Applies a brush to a chart of the page, as a frame of a stroke.
+    BrushOnPage(PageDab),
     /// Ends a stroke of a brush.
     EndBrush,
     /// Drops a stroke of a brush.

@@ -1,36 +1,54 @@
-//! Part: strokes of brushes on the map on the screen. Each frame is proved; a stroke becomes one edit at its end.
+//! Part: strokes of brushes on the map on the screen, or on a chart of the page. Each frame is proved; a stroke becomes
+//! one edit at its end.
 //!
 //! ```text
 //! brush ──▶ job: a frame with the pointer at its newest position ──▶ preview, proved
 //!           a newer position replaces one that waits
 //! end   ──▶ edit of the document: the map that the user shaped, once no frame is being computed
 //! ```
+//!
+//! A chart of the page is shaped in the plane of its own map, see [`PageStroke`]. Its frames stay on the page.
 
 use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::action::BrushDab;
+use super::action::{BrushDab, PageDab};
+use super::chart_layout::ChartPlace;
 use super::drag_request::Screen;
 use super::live::Frame;
+use super::page::PageChart;
+use super::page_stroke::PageStroke;
 use super::stop::Goal;
-use super::{Background, Command, MessagePlace, Session, Wake};
+use super::{Background, ChartEdits, Command, MessagePlace, Session, Wake};
 use freebound_core::bijective::{BrushFrame, BrushSolver, DragFrame};
 use freebound_core::mesh::{DiskMesh, VertexId};
-use freebound_core::pipeline::{Problem, ShapedMap};
+use freebound_core::pipeline::{Outcome, Problem, ShapedMap};
 use freebound_core::problem::{Control, Embedding};
+use freebound_core::verify::MoveVerdict;
 
 /// Strokes of brushes.
 pub(super) struct Brushing {
     stroke: Option<Stroke>,
-    frames: Background<(), Option<(BrushSolver, BrushFrame)>>,
+    frames: Background<(), Option<BrushedFrame>>,
+}
+
+/// Frame of a stroke, with the solver for the next one.
+struct BrushedFrame {
+    solver: BrushSolver,
+    frame: BrushFrame,
+    /// Verdict on the chart among the others, and its coordinates, on the page.
+    on_page: Option<(MoveVerdict, Arc<Embedding>)>,
 }
 
 /// Stroke in progress.
 struct Stroke {
     dab: BrushDab,
+    mesh: Arc<DiskMesh>,
     begin: Arc<Embedding>,
     problem: Problem,
+    /// Chart of the page. `None` for the map on the screen.
+    on_page: Option<PageStroke>,
     /// Solver between frames. `None` before the first frame and while a frame is computed.
     solver: Option<Box<BrushSolver>>,
     /// True if the pointer has moved or presses on since the last frame began.
@@ -58,25 +76,55 @@ impl Brushing {
     }
 
     /// Computes the next frame, if one is wanted and none is being computed.
-    fn start_next(&mut self, mesh: &Arc<DiskMesh>) {
+    fn start_next(&mut self) {
         let Some(stroke) = self.stroke.as_mut().filter(|stroke| stroke.is_waiting) else { return };
         if self.frames.is_busy() {
             return;
         }
         stroke.is_waiting = false;
-        let (mesh, dab, before) = (Arc::clone(mesh), stroke.dab, stroke.solver.take());
+        let (mesh, dab, before) = (Arc::clone(&stroke.mesh), stroke.dab, stroke.solver.take());
         let (begin, target) = (Arc::clone(&stroke.begin), stroke.problem.drag_target());
+        let among = stroke.on_page.as_ref().map(PageStroke::among);
         self.frames.start((), move |cancel| {
             let solver = before.map(|solver| *solver);
             let first = || BrushSolver::new(&mesh, Embedding::clone(&begin), target, dab.brush, dab.at);
             let mut solver = solver.or_else(first)?;
             let frame = solver.frame(&mesh, dab.at, Control::new(cancel, &|_| {})).ok()?;
-            Some((solver, frame))
+            let on_page = among.map(|among| among.judge(solver.embedding(), solver.moved()));
+            Some(BrushedFrame { solver, frame, on_page })
         });
     }
 }
 
+/// True if a map is proved planar as brushes need it: the final map of a run, in the orientation of the surface.
+fn is_planar(outcome: &Outcome) -> bool {
+    let step = &outcome.step;
+    outcome.can_be_saved() && step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start()
+}
+
 impl Stroke {
+    fn new(dab: BrushDab, mesh: Arc<DiskMesh>, Screen { embedding, problem, .. }: Screen) -> Self {
+        Self {
+            dab,
+            mesh,
+            begin: embedding,
+            problem,
+            on_page: None,
+            solver: None,
+            is_waiting: true,
+            is_ending: false,
+            frame: None,
+            has_moved: false,
+        }
+    }
+
+    /// Applies the brush at another position.
+    fn follow(&mut self, at: DVec2) {
+        if !self.is_ending {
+            (self.dab.at, self.is_waiting) = (at, true);
+        }
+    }
+
     /// Frame of the preview, with the vertices that have moved.
     fn preview(&self) -> Option<Frame> {
         let (solver, frame) = (self.solver.as_ref()?, self.frame.clone()?);
@@ -92,12 +140,19 @@ impl Session {
     /// True if brushes can shape the map on the screen: it is planar, belongs to the document, has no new vertices, and
     /// nothing solves it.
     pub fn can_brush(&self) -> bool {
-        self.brushed_screen().is_some()
+        self.outcome_to_brush().is_some()
     }
 
-    /// Radius that the newest frame of a stroke used, in the plane.
+    /// Radius that the newest frame of a stroke used: in the plane of the map on the screen, or in the page's plane.
     pub fn brush_radius(&self) -> Option<f64> {
-        Some(self.brushing.stroke.as_ref()?.frame.as_ref()?.radius)
+        let stroke = self.brushing.stroke.as_ref()?;
+        let scale = stroke.on_page.as_ref().map_or(1.0, |page| page.placement().scale());
+        Some(scale * stroke.frame.as_ref()?.radius)
+    }
+
+    /// Stroke on a chart of the page, in progress.
+    pub fn page_stroke(&self) -> Option<&PageStroke> {
+        self.brushing.stroke.as_ref()?.on_page.as_ref()
     }
 
     /// True from the first frame of a stroke to its end.
@@ -106,37 +161,67 @@ impl Session {
     }
 
     /// Planar map on the screen that brushes can shape.
-    fn brushed_screen(&self) -> Option<Screen> {
+    fn outcome_to_brush(&self) -> Option<&Arc<Outcome>> {
         let is_at_rest = !self.is_running() && self.preview().is_none() && !self.history.is_in_gesture();
         if !is_at_rest || !self.is_current() || !self.has_form_as_wanted() {
             return None;
         }
-        let outcome = self.outcome().filter(|outcome| outcome.can_be_saved())?;
-        Screen::of(outcome, self.disk()?.vertex_count()).filter(|screen| screen.is_planar)
+        self.outcome().filter(|outcome| is_planar(outcome))
+    }
+
+    fn brushed_screen(&self) -> Option<Screen> {
+        Screen::of(self.outcome_to_brush()?, self.disk()?.vertex_count())
+    }
+
+    /// True if brushes can shape a chart of the page.
+    pub fn can_brush_chart(&self, chart: usize) -> bool {
+        self.chart_to_brush(chart).is_some()
+    }
+
+    /// Chart of the page that brushes can shape.
+    fn chart_to_brush(&self, chart: usize) -> Option<&PageChart> {
+        let page = self.page().filter(|_| self.can_move_charts() && !self.is_moving_charts())?;
+        let on_page = page.charts.get(chart).filter(|on_page| on_page.stacked.is_none())?;
+        let has_new_vertices = on_page.outcome.step.candidate.refinement.is_some();
+        let is_fit = is_planar(&on_page.outcome) && !has_new_vertices && !self.history.is_in_gesture();
+        is_fit.then_some(on_page)
+    }
+
+    /// Planar map of a chart of the page that brushes can shape, and its stroke.
+    fn brushed_chart(&self, chart: usize) -> Option<(Arc<DiskMesh>, Screen, PageStroke)> {
+        let on_page = self.chart_to_brush(chart)?;
+        let mesh = Arc::clone(on_page.model.disk()?);
+        let screen = Screen::of(&on_page.outcome, mesh.vertex_count())?;
+        Some((mesh, screen, PageStroke::new(self.page()?, chart)?))
     }
 
     /// Applies a brush at the pointer: starts a stroke, or continues it.
     pub(super) fn brush(&mut self, dab: BrushDab) {
-        let Some(mesh) = self.disk().cloned() else { return };
         if let Some(stroke) = &mut self.brushing.stroke {
-            if !stroke.is_ending {
-                (stroke.dab.at, stroke.is_waiting) = (dab.at, true);
+            if stroke.on_page.is_none() {
+                stroke.follow(dab.at);
             }
         } else {
-            let Some(Screen { embedding, problem, .. }) = self.brushed_screen() else { return };
-            let stroke = Stroke {
-                dab,
-                begin: embedding,
-                problem,
-                solver: None,
-                is_waiting: true,
-                is_ending: false,
-                frame: None,
-                has_moved: false,
-            };
-            self.brushing.stroke = Some(stroke);
+            let (Some(screen), Some(mesh)) = (self.brushed_screen(), self.disk().cloned()) else { return };
+            self.brushing.stroke = Some(Stroke::new(dab, mesh, screen));
         }
-        self.brushing.start_next(&mesh);
+        self.brushing.start_next();
+    }
+
+    /// Applies a brush to a chart of the page: starts a stroke, or continues it.
+    pub(super) fn brush_on_page(&mut self, PageDab { chart, dab, insists }: PageDab) {
+        if let Some(stroke) = &mut self.brushing.stroke {
+            let Some(page) = stroke.on_page.as_mut().filter(|page| page.chart() == chart) else { return };
+            page.set_insists(insists);
+            let at = page.placement().from_page(dab.at);
+            stroke.follow(at);
+        } else {
+            let Some((mesh, screen, mut page)) = self.brushed_chart(chart) else { return };
+            page.set_insists(insists);
+            let dab = page.placement().dab_from_page(dab);
+            self.brushing.stroke = Some(Stroke { on_page: Some(page), ..Stroke::new(dab, mesh, screen) });
+        }
+        self.brushing.start_next();
     }
 
     /// Ends a stroke: it becomes an edit at the next poll that has its newest frame. Not at once, because the window is
@@ -156,13 +241,11 @@ impl Session {
 
     /// Shows finished frames, and makes a stroke that has ended an edit.
     pub(super) fn poll_brush(&mut self) {
-        let wanted = self.document.problem();
-        if self.brushing.stroke.as_ref().is_some_and(|stroke| stroke.problem != wanted) {
-            // The document has changed.
+        if self.is_stroke_outdated() {
             return self.give_up_brush();
         }
         match self.brushing.frames.poll() {
-            Some(((), Ok(Some((solver, frame))))) => self.take_frame(solver, frame),
+            Some(((), Ok(Some(frame)))) => self.take_frame(frame),
             Some(((), Ok(None))) => self.give_up_brush(),
             Some(((), Err(failure))) => {
                 self.give_up_brush();
@@ -170,20 +253,36 @@ impl Session {
             }
             None => {}
         }
-        if let Some(mesh) = self.disk().cloned() {
-            self.brushing.start_next(&mesh);
-        }
+        self.brushing.start_next();
         let is_ending = self.brushing.stroke.as_ref().is_some_and(|stroke| stroke.is_ending);
         if is_ending && !self.brushing.is_busy() {
             self.take_stroke();
         }
     }
 
-    fn take_frame(&mut self, solver: BrushSolver, frame: BrushFrame) {
+    /// True if the document has changed since the stroke began.
+    fn is_stroke_outdated(&self) -> bool {
+        let Some(stroke) = &self.brushing.stroke else { return false };
+        let wanted = match &stroke.on_page {
+            None => Some(self.document.problem()),
+            Some(page) => {
+                let of = self.model().and_then(|model| model.prepared.chart.as_ref());
+                let edits = of.map(|of| self.document.edits_of(page.chart(), of));
+                edits.filter(|_| self.can_move_charts()).map(|edits| self.document.problem_with(edits))
+            }
+        };
+        wanted.as_ref() != Some(&stroke.problem)
+    }
+
+    fn take_frame(&mut self, BrushedFrame { solver, frame, on_page }: BrushedFrame) {
         let Some(stroke) = &mut self.brushing.stroke else { return };
         stroke.has_moved |= !solver.moved().is_empty();
+        if let (Some(page), Some((verdict, coordinates))) = (&mut stroke.on_page, on_page) {
+            page.take(verdict, solver.embedding(), coordinates);
+        }
         (stroke.solver, stroke.frame) = (Some(Box::new(solver)), Some(frame));
-        if let Some(frame) = stroke.preview().filter(|_| stroke.has_moved) {
+        let is_on_screen = stroke.has_moved && stroke.on_page.is_none();
+        if let Some(frame) = stroke.preview().filter(|_| is_on_screen) {
             self.drag.show_live(frame);
         }
     }
@@ -191,6 +290,9 @@ impl Session {
     /// Makes the stroke an edit: the map that the user shaped. All charts stay where they lie on the page.
     fn take_stroke(&mut self) {
         let Some(stroke) = self.brushing.stroke.take() else { return };
+        if let Some(page) = stroke.on_page {
+            return self.take_page_stroke(page);
+        }
         let shaped = stroke.solver.as_ref().map(|solver| solver.embedding().clone());
         let Some(shaped) = shaped.filter(|shaped| *shaped != *stroke.begin) else { return self.drag.end() };
         let mut edits = vec![Command::SetShaped(Some(ShapedMap(Arc::new(shaped)))), Command::SetRelaxed(0)];
@@ -200,6 +302,34 @@ impl Session {
         if self.apply(Command::Together(edits)) {
             self.solving.follow_newest();
             // The preview stays until the map arrives with its distortion.
+            self.begin(Goal::Until(self.stop_conditions()));
+        }
+    }
+
+    /// Makes a stroke on the page an edit of its chart. The chart keeps the coordinates of the last frame.
+    fn take_page_stroke(&mut self, stroke: PageStroke) {
+        if let Some(verdict) = stroke.kept_back() {
+            self.tell_kept_back(verdict);
+        }
+        let chart = stroke.chart();
+        let Some((shaped, coordinates)) = stroke.into_shaped() else { return };
+        let Some(mut layout) = self.layout_as_it_lies() else { return };
+        let Some(of) = self.model().and_then(|model| model.prepared.chart.clone()) else { return };
+        let first_face = of.charts.first_face(chart);
+        let places = if layout.locked.contains_key(&first_face) { &mut layout.locked } else { &mut layout.placed };
+        if let Some(place) = places.get_mut(&first_face) {
+            *place = ChartPlace(coordinates);
+        }
+        let is_shown = of.charts.pick(self.document.chart) == chart;
+        let edits = ChartEdits { shaped: Some(ShapedMap(shaped)), relaxed: 0, ..self.document.edits_of(chart, &of) };
+        let mut commands = if is_shown {
+            vec![Command::SetShaped(edits.shaped), Command::SetRelaxed(0)]
+        } else {
+            vec![Command::SetElsewhere { chart, edits }]
+        };
+        commands.push(Command::SetLayout(Box::new(layout)));
+        if self.apply(Command::Together(commands)) && is_shown {
+            self.solving.follow_newest();
             self.begin(Goal::Until(self.stop_conditions()));
         }
     }

@@ -50,6 +50,7 @@
 //! | `drag_request`       | request of a drag, and the state of the screen at its start            |
 //! | `continue_from`      | start of a run after an edit                                           |
 //! | `brushing`           | part: strokes of brushes on the map, proved at every frame             |
+//! | `page_stroke`        | chart of the page that a brush shapes                                  |
 //! | `live`               | part: planar embedding that follows the pointer, proved at every frame |
 //! | `background_jobs`    | part: short background jobs for the document                           |
 //! | `target_checks`      | part: conflicts among targets, and the check for mirrored targets      |
@@ -116,6 +117,7 @@ mod open_project;
 mod opened;
 mod page;
 mod page_actions;
+mod page_stroke;
 mod past;
 mod preferences;
 mod queries;
@@ -136,7 +138,7 @@ mod timeline;
 mod unwrapping;
 mod v_axis;
 
-pub use action::{Action, BakeRequest, BrushDab, PatternRequest, SaveRequest, UndoGroup};
+pub use action::{Action, BakeRequest, BrushDab, PageDab, PatternRequest, SaveRequest, UndoGroup};
 pub use atlas_view::AtlasView;
 pub use background::{Background, JobFailure, Wake};
 pub use chart_layout::{ChartLayout, ChartPlace};
@@ -158,6 +160,7 @@ use messages::{Messages, Written};
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
 pub use page::{ChartMove, ChartPage, JudgedMove, MoveState, PageChart, movement_about};
+pub use page_stroke::{ChartPlacement, PageStroke};
 pub use preferences::{KeptChecker, KeptFolders, Preferences};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};

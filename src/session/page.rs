@@ -14,10 +14,10 @@ use glam::{DAffine2, DVec2};
 use super::atlas_view::{AtlasKey, AtlasView};
 use super::{Background, Model, Wake};
 use freebound_core::geom::Bounds;
-use freebound_core::mesh::{Charts, DiskMesh};
+use freebound_core::mesh::{Charts, DiskMesh, VertexId};
 use freebound_core::pipeline::{Outcome, SolvedChart, StackedOn};
 use freebound_core::problem::Embedding;
-use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict};
+use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict, shaped_verdict};
 
 /// All charts as they lie on the page. The page's plane has its height as unit: x is u times the aspect, y is v.
 #[derive(Clone, Debug)]
@@ -103,6 +103,48 @@ impl ChartPage {
         Bounds::of(points.filter(finite).map(|uv| *uv * plane))
     }
 
+    /// Verdict on charts at other coordinates. A chart that was folded before does not count, nor do charts that overlapped
+    /// before if `move_together` says that they move by the same movement.
+    pub(super) fn judge(
+        &self,
+        moved: &[(usize, Arc<Embedding>)],
+        move_together: impl Fn(usize, usize) -> bool,
+    ) -> MoveVerdict {
+        let of_moved: BTreeMap<usize, &Embedding> = moved.iter().map(|(chart, at)| (*chart, &**at)).collect();
+        let (own, charts) = self.in_plane(|chart| of_moved.get(&chart).copied());
+        let places = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
+        let MoveVerdict { folded, overlapping } = move_verdict(&charts, &places.map(|(place, _)| place).collect());
+        let is_new_fold = |chart: &usize| self.charts[*chart].outcome.step.verdict.planar;
+        let is_new_overlap = |[a, b]: &[usize; 2]| self.is_planar == Some(true) || !move_together(*a, *b);
+        let overlapping = overlapping.into_iter().map(|pair| pair.map(|place| own[place]));
+        MoveVerdict {
+            folded: folded.into_iter().map(|place| own[place]).filter(is_new_fold).collect(),
+            overlapping: overlapping.filter(is_new_overlap).collect(),
+        }
+    }
+
+    /// Verdict on a chart of which some vertices moved, at these coordinates. All its other faces count as judged before.
+    pub(super) fn judge_shaped(&self, chart: usize, coordinates: &Embedding, moved: &[VertexId]) -> MoveVerdict {
+        let (own, charts) = self.in_plane(|other| (other == chart).then_some(coordinates));
+        let Some(place) = own.iter().position(|&other| other == chart) else { return MoveVerdict::default() };
+        let MoveVerdict { folded, overlapping } = shaped_verdict(&charts, place, moved);
+        MoveVerdict {
+            folded: folded.into_iter().map(|place| own[place]).collect(),
+            overlapping: overlapping.into_iter().map(|pair| pair.map(|place| own[place])).collect(),
+        }
+    }
+
+    /// Charts with a place of their own, by their numbers and in the plane of texture coordinates. A chart that is stacked
+    /// on another has the coordinates of the other. `moved` returns the coordinates of a chart that lies elsewhere now.
+    fn in_plane<'a>(&'a self, moved: impl Fn(usize) -> Option<&'a Embedding>) -> (Vec<usize>, Vec<ChartInPlane<'a>>) {
+        let own = self.charts.iter().enumerate().filter(|(_, chart)| chart.stacked.is_none());
+        let in_plane = |(number, chart): (usize, &'a PageChart)| {
+            let coordinates = moved(number).unwrap_or(&chart.coordinates);
+            (number, ChartInPlane { mesh: chart.mesh(), coordinates })
+        };
+        own.map(in_plane).unzip()
+    }
+
     /// Page with charts at other coordinates.
     fn with(&self, moved: &[(usize, Arc<Embedding>)]) -> Self {
         let mut page = self.clone();
@@ -129,29 +171,8 @@ impl JudgedMove {
     fn new(page: &ChartPage, moves: Vec<ChartMove>) -> Self {
         let coordinates: Vec<(usize, Arc<Embedding>)> =
             moves.iter().map(|&(chart, by)| (chart, Arc::new(page.charts[chart].moved(by, page.aspect)))).collect();
-        let of_moved: BTreeMap<usize, &Arc<Embedding>> = coordinates.iter().map(|(chart, at)| (*chart, at)).collect();
-        // A chart that is stacked on another has the coordinates of the other.
-        let own: Vec<usize> = (0..page.charts.len()).filter(|&chart| page.charts[chart].stacked.is_none()).collect();
-        let in_plane = |&number: &usize| {
-            let chart = &page.charts[number];
-            ChartInPlane {
-                mesh: chart.mesh(),
-                coordinates: of_moved.get(&number).copied().unwrap_or(&chart.coordinates),
-            }
-        };
-        let charts: Vec<ChartInPlane<'_>> = own.iter().map(in_plane).collect();
-        let places = own.iter().enumerate().filter(|(_, chart)| of_moved.contains_key(chart));
-        let verdict = move_verdict(&charts, &places.map(|(place, _)| place).collect());
-        let MoveVerdict { folded, overlapping } = verdict;
-        // A chart that was folded before the move may be moved, and so may charts that overlapped and move together.
-        let is_new_fold = |chart: &usize| page.charts[*chart].outcome.step.verdict.planar;
         let movement = |chart: usize| moves.iter().find(|(other, _)| *other == chart).map(|(_, by)| *by);
-        let is_new_overlap = |[a, b]: &[usize; 2]| page.is_planar == Some(true) || movement(*a) != movement(*b);
-        let overlapping = overlapping.into_iter().map(|pair| pair.map(|place| own[place]));
-        let verdict = MoveVerdict {
-            folded: folded.into_iter().map(|place| own[place]).filter(is_new_fold).collect(),
-            overlapping: overlapping.filter(is_new_overlap).collect(),
-        };
+        let verdict = page.judge(&coordinates, |a, b| movement(a) == movement(b));
         Self { moves, coordinates, verdict }
     }
 }

@@ -11,6 +11,7 @@ use super::{Command, LockState, Message, MessagePlace, Session};
 use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::{Charts, FaceId};
 use freebound_core::problem::Embedding;
+use freebound_core::verify::MoveVerdict;
 use freebound_io::PictureFile;
 
 /// Change of scale up to which a movement counts as one without a change of size.
@@ -130,7 +131,7 @@ impl Session {
                 self.take_move(&judged);
             }
             if let Some(kept_back) = kept_back {
-                self.tell_kept_back(&kept_back);
+                self.tell_kept_back(&kept_back.verdict);
             }
         }
         let Some(key) = self.atlas_key().filter(|_| !self.page.is_busy()) else { return };
@@ -199,9 +200,9 @@ impl Session {
         Some(layout)
     }
 
-    fn tell_kept_back(&mut self, kept_back: &JudgedMove) {
-        let mut pairs = kept_back.verdict.overlapping.iter();
-        let words = match pairs.next() {
+    /// Tells why charts are kept back.
+    pub(super) fn tell_kept_back(&mut self, verdict: &MoveVerdict) {
+        let words = match verdict.overlapping.first() {
             Some([a, b]) => format!("charts {a} and {b} would overlap there, so they stay"),
             None => "rounding would fold a chart there, so it stays".to_owned(),
         };

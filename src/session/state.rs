@@ -126,6 +126,7 @@ impl Session {
             Action::Repair => self.repair(),
             Action::Rest => self.rest(),
             Action::Brush(dab) => self.brush(dab),
+            Action::BrushOnPage(dab) => self.brush_on_page(dab),
             Action::EndBrush => self.end_brush(),
             Action::GiveUpBrush => self.give_up_brush(),
             Action::EndGesture => self.end_gesture(),

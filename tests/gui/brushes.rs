@@ -1,12 +1,19 @@
 //! The brush tool in the embedding pane.
 
+use std::sync::Arc;
+
 use eframe::egui::{Key, Modifiers, Pos2, Vec2};
 use freebound::examples::Example;
-use freebound::ui::Tool;
+use freebound::session::PageStroke;
+use freebound::ui::{Editor, Tool};
+use freebound::view::PlaneArrays;
 use freebound_core::bijective::BrushKind;
 use freebound_core::mesh::VertexId;
+use freebound_core::problem::Embedding;
 
-use crate::harness::Window;
+use crate::charts::with_sheets;
+use crate::harness::{Pill, Window};
+use crate::page;
 use crate::presses::button;
 
 /// Window with a planar map and the brush tool.
@@ -133,4 +140,160 @@ fn keys_resize_the_brush_and_a_click_beside_the_map_changes_nothing() {
     window.click_at(beside, Modifiers::NONE);
     assert!(window.embedding() == map);
     assert!(!can_undo(&window));
+}
+
+/// Window with several charts on the page and the brush tool.
+fn page_window() -> Window {
+    let mut window = with_sheets();
+    window.key(Key::B);
+    assert!(window.editor().shows_page(), "the brush works on the page");
+    window
+}
+
+/// Coordinates of a chart of the page.
+fn on_page(window: &Window, chart: usize) -> Arc<Embedding> {
+    Arc::clone(&window.editor().session.page().expect("a page").charts[chart].coordinates)
+}
+
+/// Corners of the triangles of a chart that the pane draws.
+fn drawn(window: &Window) -> Arc<PlaneArrays> {
+    Arc::clone(window.editor().plane.page.plane().expect("a page"))
+}
+
+#[test]
+fn a_stroke_on_the_page_shapes_the_chart_under_it_and_leaves_all_others_where_they_lie() {
+    let mut window = page_window();
+    let depth = window.editor().session.history().depth();
+    let shown = window.editor().session.chart_on_screen();
+    let camera = window.editor().plane.page.pane.camera();
+    for chart in 0..3 {
+        window.click("Grab brush");
+        let before: Vec<_> = (0..3).map(|chart| on_page(&window, chart)).collect();
+        let from = page::middle(&window, chart);
+        let first = drawn(&window);
+        window.begin_drag(from, from + Vec2::new(9.0, 3.0), Modifiers::NONE);
+        let stroke = window.editor().session.page_stroke().expect("a stroke");
+        assert_eq!(stroke.chart(), chart);
+        page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|s| s.coordinates().is_some()));
+        window.step();
+        assert!(!Arc::ptr_eq(&first, &drawn(&window)), "the page shows the stroke");
+        assert_eq!(window.pill(), Pill::Proved);
+        window.end_drag(from + Vec2::new(9.0, 3.0));
+        page::until_proved(&mut window);
+        let after: Vec<_> = (0..3).map(|chart| on_page(&window, chart)).collect();
+        for other in 0..3 {
+            assert_eq!(*before[other] == *after[other], other != chart, "chart {other} after a stroke on {chart}");
+        }
+        assert_eq!(window.pill(), Pill::Proved);
+        assert!(window.editor().session.newest_atlas().expect("a layout").verdict.planar);
+        assert_eq!(window.editor().session.history().depth(), depth + 1, "one edit");
+        assert!(window.editor().shows_page());
+        assert_eq!(window.editor().session.chart_on_screen(), shown);
+        assert_eq!(window.editor().plane.page.pane.camera(), camera);
+        window.press(Modifiers::COMMAND, Key::Z);
+        page::until_proved(&mut window);
+        assert_eq!(window.editor().session.history().depth(), depth);
+        for (chart, before) in before.iter().enumerate() {
+            assert_eq!(**before, *on_page(&window, chart), "undone");
+        }
+    }
+}
+
+#[test]
+fn a_stroke_moves_only_the_vertices_under_the_brush_on_the_page() {
+    let mut window = page_window();
+    window.click("Grab brush");
+    for _ in 0..8 {
+        window.key(Key::OpenBracket);
+    }
+    let before = on_page(&window, 0);
+    let from = page::middle(&window, 0);
+    window.drag(from, from + Vec2::new(6.0, 2.0), Modifiers::NONE);
+    page::until_proved(&mut window);
+    let after = on_page(&window, 0);
+    let moved = before.iter().zip(after.iter()).filter(|(a, b)| a != b).count();
+    assert!(moved > 0 && moved < before.len(), "{moved} of {}", before.len());
+}
+
+#[test]
+fn a_chart_that_a_brush_moves_stops_before_another_unless_alt_is_held() {
+    for (modifiers, may_overlap) in [(Modifiers::NONE, false), (Modifiers::ALT, true)] {
+        let mut window = page_window();
+        window.click("Grab brush");
+        let (from, to) = (page::middle(&window, 0), page::middle(&window, 1));
+        for _ in 0..16 {
+            window.key(Key::CloseBracket);
+        }
+        window.begin_drag(from, from.lerp(to, 0.5), modifiers);
+        window.harness.hover_at(to);
+        let is_there = |editor: &Editor| {
+            let stroke = editor.session.page_stroke();
+            let overlaps = |stroke: &PageStroke| stroke.verdict().is_some_and(|verdict| !verdict.is_planar());
+            stroke.is_some_and(|stroke| if may_overlap { overlaps(stroke) } else { stroke.kept_back().is_some() })
+        };
+        page::until(&mut window, is_there);
+        window.step();
+        assert_eq!(window.pill(), if may_overlap { Pill::Bad } else { Pill::Proved });
+        window.end_drag(to);
+        page::until_proved(&mut window);
+        let atlas = window.editor().session.newest_atlas().expect("a layout");
+        assert_eq!(atlas.verdict.planar, !may_overlap);
+    }
+}
+
+#[test]
+fn escape_drops_a_stroke_on_the_page_and_a_gesture_puts_the_brush_away() {
+    let mut window = page_window();
+    window.click("Grab brush");
+    let before = on_page(&window, 0);
+    let from = page::middle(&window, 0);
+    window.begin_drag(from, from + Vec2::new(12.0, 0.0), Modifiers::NONE);
+    page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|s| s.coordinates().is_some()));
+    window.harness.key_press(Key::Escape);
+    window.step();
+    window.end_drag(from);
+    page::until_proved(&mut window);
+    assert_eq!(*before, *on_page(&window, 0));
+    assert!(!window.editor().session.is_brushing());
+    assert_eq!(window.editor().tools.tool(), Tool::Brush);
+    window.press(Modifiers::COMMAND, Key::A);
+    window.key(Key::G);
+    assert_eq!(window.editor().tools.tool(), Tool::Select);
+}
+
+#[test]
+fn vertices_of_turned_mirrored_and_locked_charts_follow_the_pointer() {
+    let by = Vec2::new(14.0, 6.0);
+    let turn = |window: &mut Window| {
+        window.key(Key::R);
+        [Key::Num3, Key::Num0, Key::Enter].into_iter().for_each(|key| window.key(key));
+    };
+    let prepare: [(&str, &dyn Fn(&mut Window)); 3] = [
+        ("turned", &turn),
+        ("mirrored", &|window| window.menu(&["Move", "Mirror left to right"])),
+        ("locked", &|window| window.key(Key::L)),
+    ];
+    for (name, change) in prepare {
+        let mut window = with_sheets();
+        let at = page::middle(&window, 0);
+        window.click_at(at, Modifiers::NONE);
+        change(&mut window);
+        page::until_proved(&mut window);
+        window.key(Key::B);
+        window.click("Grab brush");
+        let from = page::middle(&window, 0);
+        let before = on_page(&window, 0);
+        let depth = window.editor().session.history().depth();
+        window.drag(from, from + by, Modifiers::NONE);
+        page::until_proved(&mut window);
+        assert_eq!(window.editor().session.history().depth(), depth + 1, "{name}");
+        let after = on_page(&window, 0);
+        let aspect = window.editor().session.page().expect("a page").aspect;
+        let moved = |vertex: usize| (after[vertex] - before[vertex]) * glam::DVec2::new(aspect, 1.0);
+        let most = (0..before.len()).map(moved).max_by(|a, b| a.length().total_cmp(&b.length())).expect("vertices");
+        let scale = window.editor().plane.page.pane.camera().expect("shown").points_per_unit();
+        let expected = glam::DVec2::new(by.x.into(), -f64::from(by.y)) / scale;
+        assert!(most.distance(expected) < 0.25 * expected.length(), "{name}: {most} {expected}");
+        assert_eq!(window.pill(), Pill::Proved, "{name}");
+    }
 }

@@ -39,13 +39,13 @@ fn spot(window: &Window, at: DVec2) -> Pos2 {
     window.plane_view().min + egui::vec2(x, y)
 }
 
-fn middle(window: &Window, chart: usize) -> Pos2 {
+pub(crate) fn middle(window: &Window, chart: usize) -> Pos2 {
     spot(window, bounds(window, chart).middle())
 }
 
 /// Waits until moves have ended and the layout is proved.
 #[track_caller]
-fn until_proved(window: &mut Window) {
+pub(crate) fn until_proved(window: &mut Window) {
     let start = Instant::now();
     let is_open = |editor: &Editor| {
         editor.session.is_moving_charts() || editor.session.page().is_none_or(|page| page.is_planar.is_none())
@@ -58,6 +58,17 @@ fn until_proved(window: &mut Window) {
         window.step();
     }
     window.settle();
+}
+
+/// Waits for a state of the editor.
+#[track_caller]
+pub(crate) fn until(window: &mut Window, is_there: impl Fn(&Editor) -> bool) {
+    let start = Instant::now();
+    while !is_there(window.editor()) {
+        assert!(start.elapsed() < Duration::from_mins(1), "{:?}", window.words());
+        std::thread::sleep(Duration::from_millis(1));
+        window.step();
+    }
 }
 
 /// Drags from one point to another in some frames.
@@ -434,14 +445,18 @@ fn requests_to_the_page_do_nothing_without_a_page() {
 const WALK: u64 = 200;
 
 /// Keys of a walk, by their modifiers.
-const WALK_KEYS: [(Modifiers, &[Key]); 6] = [
+const WALK_KEYS: [(Modifiers, &[Key]); 7] = [
     (Modifiers::NONE, &[Key::G, Key::R, Key::S, Key::X, Key::Y, Key::Enter, Key::Escape, Key::L, Key::F]),
     (Modifiers::NONE, &[Key::Num1, Key::Num9, Key::Minus, Key::Period, Key::Backspace, Key::V, Key::P, Key::Tab]),
     (Modifiers::NONE, &[Key::ArrowLeft, Key::ArrowUp, Key::PageDown, Key::G, Key::G, Key::Enter]),
     (Modifiers::COMMAND, &[Key::A, Key::I, Key::Z, Key::Z]),
     (Modifiers::COMMAND.plus(Modifiers::SHIFT), &[Key::Z]),
     (Modifiers::SHIFT, &[Key::P, Key::C]),
+    (Modifiers::NONE, &[Key::B, Key::B, Key::OpenBracket, Key::CloseBracket]),
 ];
+
+/// Brushes of a walk, by their buttons.
+const BRUSHES: [&str; 5] = ["Relax brush", "Grab brush", "Pinch brush", "Smooth brush", "Texels brush"];
 
 /// Random walk over the page.
 struct Walk {
@@ -479,7 +494,12 @@ impl Walk {
             return self.window.key(Key::Escape);
         };
         let (from, to) = (self.place_in(rect), self.place_in(rect));
-        match self.random.below(5) {
+        match self.random.below(6) {
+            5 if self.window.has_button(BRUSHES[0]) => {
+                let brush = self.one_of(&BRUSHES);
+                self.say(brush.to_owned());
+                self.window.click(brush);
+            }
             0 | 1 => {
                 let (modifiers, keys) = self.one_of(&WALK_KEYS);
                 let key = self.one_of(keys);

@@ -34,7 +34,7 @@ impl Editor {
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::Curve(request) => self.timeline.handle(request),
-            Request::SetTool(tool) => self.tools.take_up(tool),
+            Request::SetTool(tool) => self.take_up_tool(tool),
             Request::SetBrush(brush) => self.tools.brush = brush,
             Request::ResizeBrush { grows } => {
                 self.tools.brush = self.tools.brush.resized(if grows { 1.0 } else { -1.0 });

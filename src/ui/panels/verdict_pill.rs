@@ -3,7 +3,7 @@
 use eframe::egui::{self, RichText, Role};
 
 use super::seams_section::progress_words;
-use crate::session::{Action, Busy, FirstMapWork, LivePreview, Preview, Status};
+use crate::session::{Action, Busy, FirstMapWork, LivePreview, PageStroke, Preview, Session, Status};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::{CHIP, CHIP_HOVERED};
 use crate::ui::{Control, Editor, Offer, PageRequest, Request, Tab, counted, sentence, theme_of, with_keys_set};
@@ -112,14 +112,28 @@ fn pill(editor: &Editor) -> Option<Pill> {
     })
 }
 
+/// Chart that keeps a move or a stroke back, for the pill. `None` if nothing is kept back.
+fn kept_back_words(session: &Session) -> Option<String> {
+    let of_move = session.move_state().and_then(|state| state.kept_back.as_ref());
+    let stroke = session.page_stroke();
+    let verdict = stroke.and_then(PageStroke::kept_back).or(of_move.map(|judged| &judged.verdict))?;
+    let moves = |chart: usize| {
+        stroke.is_some_and(|stroke| stroke.chart() == chart)
+            || of_move.is_some_and(|judged| judged.moves.iter().any(|(moved, _)| *moved == chart))
+    };
+    let other = verdict.overlapping.first().map(|&[a, b]| if moves(a) { b } else { a });
+    Some(other.map_or_else(String::new, |other| format!(" · chart {other} is in the way")))
+}
+
 /// Verdict on all charts of the page, also while charts move.
 fn of_page(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let page = session.page()?;
     let state = session.move_state();
-    let moved = state.and_then(|state| state.accepted.as_ref());
+    let stroke = session.page_stroke();
+    let moved = stroke.and_then(PageStroke::verdict).or_else(|| Some(&state?.accepted.as_ref()?.verdict));
     let count = counted(page.charts.len(), "chart", "charts");
-    if let Some([a, b]) = moved.and_then(|moved| moved.verdict.overlapping.first()) {
+    if let Some([a, b]) = moved.and_then(|moved| moved.overlapping.first()) {
         return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Move them apart, or press Esc"));
     }
     if let Some(chart) = session.failed_chart().filter(|_| !session.can_move_charts()) {
@@ -129,17 +143,13 @@ fn of_page(editor: &Editor) -> Option<Pill> {
     if state.is_none() && !session.can_move_charts() {
         return Some(Pill::new(Sign::Working, "laying out…", "The charts are being solved or packed"));
     }
-    if moved.is_some_and(|moved| !moved.verdict.is_planar()) {
+    if moved.is_some_and(|moved| !moved.is_planar()) {
         return Some(Pill::new(Sign::Bad, "A chart folds", "Scale it less, or press Esc"));
     }
     let tip = "Exact arithmetic shows that no two faces of any charts overlap";
-    Some(match (page.is_planar, state.and_then(|state| state.kept_back.as_ref())) {
+    Some(match (page.is_planar, kept_back_words(session)) {
         (None, _) => Pill::new(Sign::Working, "checking…", "The layout of all charts is being proved"),
-        (Some(true), Some(kept_back)) => {
-            let words = kept_back.verdict.overlapping.first().map_or_else(String::new, |[a, b]| {
-                let other = if kept_back.moves.iter().any(|(chart, _)| chart == a) { b } else { a };
-                format!(" · chart {other} is in the way")
-            });
+        (Some(true), Some(words)) => {
             Pill::new(Sign::Good, format!("Planar: proved{words}"), "Hold Alt to let charts overlap")
         }
         (Some(true), None) => Pill::new(Sign::Good, format!("Planar: proved · {count}"), tip),

@@ -4,7 +4,7 @@ use eframe::egui::{self, PointerButton, Rect, Response, Role, Stroke, WidgetInfo
 use glam::DVec2;
 
 use super::{pane, plane_pane};
-use crate::session::{Action, BrushDab};
+use crate::session::{Action, BrushDab, PageDab};
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::state::{BrushChoice, Viewport, brush_words};
 use crate::ui::{Control, Editor, Request, Tool, theme_of};
@@ -55,12 +55,21 @@ pub(super) fn bar(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec
             let row = egui::Layout::left_to_right(egui::Align::Center);
             let layout = if rect.width() < NARROW { egui::Layout::top_down(egui::Align::Min) } else { row };
             ui.with_layout(layout, |ui| sliders(ui, choice, requests));
-            if !editor.session.can_brush() && !editor.session.is_brushing() {
+            if !can_brush_here(editor) && !editor.session.is_brushing() {
                 let words = "Brushes shape a planar map without new vertices that meets its pins.";
                 ui.label(egui::RichText::new(words).small().color(theme.weak_text));
             }
         })
     });
+}
+
+/// True if brushes can shape the map on the screen, or the chart of the page under the pointer.
+fn can_brush_here(editor: &Editor) -> bool {
+    if editor.shows_page() {
+        editor.plane.page.hovered().is_none_or(|chart| editor.session.can_brush_chart(chart))
+    } else {
+        editor.session.can_brush()
+    }
 }
 
 fn sliders(ui: &mut egui::Ui, choice: BrushChoice, requests: &mut Vec<Request>) {
@@ -81,7 +90,7 @@ fn sliders(ui: &mut egui::Ui, choice: BrushChoice, requests: &mut Vec<Request>) 
     }
 }
 
-/// Carries out strokes, and draws the circle of the brush.
+/// Carries out strokes on the map on the screen, and draws the circle of the brush.
 pub(super) fn over_plane(
     ui: &egui::Ui,
     response: &Response,
@@ -92,11 +101,39 @@ pub(super) fn over_plane(
     if !takes_drags(editor) {
         return;
     }
+    end_with_button(ui, response, editor, requests);
+    let can_brush = editor.session.can_brush();
+    if let Some(dab) = dab(ui, response, view, editor, can_brush) {
+        requests.push(Request::Do(Action::Brush(dab)));
+    }
+    circle(ui, response, view, editor, can_brush);
+}
+
+/// Carries out strokes on the charts of the page, and draws the circle of the brush.
+pub(super) fn over_page(
+    ui: &egui::Ui,
+    response: &Response,
+    view: Viewport<PlaneCamera>,
+    editor: &Editor,
+    requests: &mut Vec<Request>,
+) {
+    let chart = editor.plane.page.hovered();
+    let can_brush = chart.is_some_and(|chart| editor.session.can_brush_chart(chart));
+    end_with_button(ui, response, editor, requests);
+    let dab = dab(ui, response, view, editor, can_brush);
+    if let Some((dab, chart)) = dab.zip(chart) {
+        let insists = ui.input(|input| input.modifiers.alt);
+        requests.push(Request::Do(Action::BrushOnPage(PageDab { chart, dab, insists })));
+    }
+    circle(ui, response, view, editor, can_brush);
+}
+
+/// Circle of the brush at the pointer, and the cursor that says if the brush works there.
+fn circle(ui: &egui::Ui, response: &Response, view: Viewport<PlaneCamera>, editor: &Editor, can_brush: bool) {
     let choice = editor.tools.brush;
     let pointer = ui.input(|input| input.pointer.latest_pos());
-    stroke(ui, response, view, editor, requests);
     let Some(at) = pointer.filter(|at| view.rect.contains(*at) && response.contains_pointer()) else { return };
-    if editor.session.can_brush() || editor.session.is_brushing() {
+    if can_brush || editor.session.is_brushing() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::None);
     } else {
         ui.ctx().set_cursor_icon(egui::CursorIcon::NotAllowed);
@@ -123,30 +160,42 @@ fn point_size(view: Viewport<PlaneCamera>) -> f64 {
     a.distance(b) / 100.0
 }
 
-fn stroke(
+/// Radius of the chosen brush in the plane.
+pub(super) fn radius_in_plane(editor: &Editor, view: Viewport<PlaneCamera>) -> f64 {
+    editor.tools.brush.in_plane(point_size(view), false).radius
+}
+
+/// True while the left button is down on the pane.
+fn is_down(ui: &egui::Ui, response: &Response) -> bool {
+    response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down())
+}
+
+/// Ends the stroke once the left button is up.
+fn end_with_button(ui: &egui::Ui, response: &Response, editor: &Editor, requests: &mut Vec<Request>) {
+    if editor.session.is_brushing() && !is_down(ui, response) {
+        requests.push(Request::Do(Action::EndBrush));
+    }
+}
+
+/// Brush at the pointer while the left button is down.
+fn dab(
     ui: &egui::Ui,
     response: &Response,
     view: Viewport<PlaneCamera>,
     editor: &Editor,
-    requests: &mut Vec<Request>,
-) {
-    let is_down = response.is_pointer_button_down_on() && ui.input(|input| input.pointer.primary_down());
+    can_brush: bool,
+) -> Option<BrushDab> {
     let is_brushing = editor.session.is_brushing();
-    if !is_down {
-        if is_brushing {
-            requests.push(Request::Do(Action::EndBrush));
-        }
-        return;
-    }
     let has_begun = is_brushing || ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
-    let at = response.interact_pointer_pos().filter(|_| has_begun && (is_brushing || editor.session.can_brush()));
-    if let Some(at) = at {
-        let inverts = ui.input(|input| input.modifiers.command);
-        let brush = editor.tools.brush.in_plane(point_size(view), inverts);
-        requests.push(Request::Do(Action::Brush(BrushDab { brush, at: view.point_at(at) })));
-        // The brush works on while the button is held.
-        ui.ctx().request_repaint();
+    if !is_down(ui, response) || !has_begun {
+        return None;
     }
+    let at = response.interact_pointer_pos().filter(|_| is_brushing || can_brush)?;
+    let inverts = ui.input(|input| input.modifiers.command);
+    let brush = editor.tools.brush.in_plane(point_size(view), inverts);
+    // The brush works on while the button is held.
+    ui.ctx().request_repaint();
+    Some(BrushDab { brush, at: view.point_at(at) })
 }
 
 /// Camera moves. Beside a brush the other buttons pan, and the wheel with Alt resizes the brush.

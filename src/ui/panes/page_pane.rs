@@ -7,7 +7,7 @@ use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos
 use glam::DVec2;
 
 use super::region::draw_region;
-use super::{legend, mesh_pane, plane_pane};
+use super::{brush, legend, mesh_pane, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
 use crate::session::ChartPage;
 use crate::ui::editor::PageScene;
@@ -27,11 +27,12 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     else {
         return;
     };
+    let brushes = brush::takes_drags(editor);
     let grip = Grip::at(ui, response, editor, Viewport { rect, camera }, &scene);
     if grip.holds_charts {
         plane_pane::zoom(ui, response, &mut camera);
     } else {
-        plane_pane::navigate(ui, response, &mut camera);
+        brush::navigate(ui, response, &mut camera, editor, requests);
     }
     if editor.plane.page.pane.camera() != Some(camera) {
         editor.plane.page.pane.set_camera(camera);
@@ -42,7 +43,11 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     let place = pointer.filter(|_| response.hovered() || response.contains_pointer()).map(|at| view.point_at(at));
     if response.hovered() || response.contains_pointer() {
         editor.pointer.over_plane(place, None);
-        let chart = place.and_then(|at| scene.chart_at(at));
+        let chart = match editor.session.page_stroke() {
+            Some(stroke) => Some(stroke.chart()),
+            None if brushes => place.and_then(|at| scene.chart_near(at, brush::radius_in_plane(editor, view))),
+            None => place.and_then(|at| scene.chart_at(at)),
+        };
         editor.plane.page.set_hovered(chart);
     }
     // A gesture goes on where the pointer leaves the pane.
@@ -52,15 +57,20 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
         let frame = plane_frame(editor, &scene, camera, theme_of(ui));
         ui.painter().add(render::plane_pane(PaneId("page"), rect, frame));
     }
-    if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
+    if brushes {
+        brush::over_page(ui, response, view, editor, requests);
+    } else if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
         let mut charts = scene.charts_within(|at| region.contains(view.spot(at)));
         charts.extend(region.line().into_iter().filter_map(|at| scene.chart_at(view.point_at(at))));
         requests.push(PageRequest::Add(charts).into());
     }
-    click(ui, response, editor, requests);
+    if !brushes {
+        click(ui, response, editor, requests);
+    }
     tiles(ui, view, editor, &scene);
     kept_back(ui, view, editor, &scene);
     gesture_note(ui, rect, editor);
+    brush::bar(ui, rect, editor, requests);
     if legend::plane_has_own(editor) {
         legend::legend(ui, rect, editor, Pane::Plane);
     }
@@ -81,7 +91,11 @@ impl Grip {
         scene: &PageScene,
     ) -> Self {
         let is_boxing = ui.input(|input| input.modifiers.command || input.modifiers.shift);
-        if editor.plane.page.gesture().is_none() && response.drag_started_by(PointerButton::Primary) && !is_boxing {
+        if editor.plane.page.gesture().is_none()
+            && !brush::takes_drags(editor)
+            && response.drag_started_by(PointerButton::Primary)
+            && !is_boxing
+        {
             let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
             let from = origin.map(|at| view.point_at(at));
             if let Some((from, chart)) = from.and_then(|from| Some((from, scene.chart_at(from)?))) {

@@ -24,6 +24,11 @@ impl Similarity {
         self.turn.rotate(z - self.from) + self.to
     }
 
+    /// Factor by which the similarity multiplies lengths.
+    pub fn factor(&self) -> f64 {
+        self.turn.length()
+    }
+
     /// Similarity without reflection that maps the first point of each pair nearest to the second, in least squares.
     /// `None` if there is none, or if it would map all points to one point.
     pub fn fitting(pairs: &[[DVec2; 2]]) -> Option<Self> {

@@ -33,7 +33,7 @@ pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standin
 pub use layout::{
     LayoutOptions, LayoutVerdict, MOST_WITHOUT_PLACE, PixelGap, PlaneLayout, layout_verdict, layout_verdict_with,
 };
-pub use moved::{ChartInPlane, MoveVerdict, move_verdict};
+pub use moved::{ChartInPlane, MoveVerdict, move_verdict, shaped_verdict};
 pub use one_form::{OneFormIndices, index_range};
 pub use rounding::{Rounded, RoundingGrid, rounded};
 pub use uv_frame::UvFrame;

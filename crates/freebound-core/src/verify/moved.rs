@@ -2,6 +2,7 @@
 //!
 //! A layout of planar charts whose triangles do not overlap is planar. If some charts move, the charts that stay need no
 //! new proof among themselves. So the verdict of a move covers the moved charts, and their triangles against all others.
+//! If only some vertices of a chart move, it covers the faces at these vertices.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +10,7 @@ use glam::DVec2;
 
 use super::verdict;
 use crate::geom::{Bounds, Orientation, orientation, overlaps};
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 use crate::parallel::prelude::*;
 use crate::problem::Embedding;
 
@@ -67,6 +68,44 @@ pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> Mov
         a != b && (moved.contains(&a) || moved.contains(&b))
     };
     let pairs = overlaps(&triangles, counts, MOST_OVERLAPS);
+    let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
+    MoveVerdict { folded, overlapping: pairs.into_iter().map(of_charts).collect() }
+}
+
+/// Judges a chart of which some vertices moved, by exact arithmetic: the faces at these vertices by themselves, which must
+/// have the orientation of the other faces, and against all other charts. All other faces count as judged before. `chart`
+/// is the place of the chart in the list, which holds charts with a place of their own.
+///
+/// The verdict says nothing about two faces of the chart itself that overlap. It runs in time linear in the faces near the
+/// moved ones, beside a scan of the chart.
+pub fn shaped_verdict(charts: &[ChartInPlane<'_>], chart: usize, moved: &[VertexId]) -> MoveVerdict {
+    let ChartInPlane { mesh, coordinates } = charts[chart];
+    let mut has_moved = vec![false; mesh.vertex_count()];
+    moved.iter().for_each(|vertex| has_moved[vertex.index()] = true);
+    let at = |corners: &[VertexId; 3]| corners.map(|vertex| coordinates[vertex]);
+    let is_moved = |corners: &&[VertexId; 3]| corners.iter().any(|vertex| has_moved[vertex.index()]);
+    let all = mesh.mesh().real_triangles();
+    let triangles: Vec<[DVec2; 3]> = all.iter().filter(is_moved).map(at).collect();
+    let turn = |[a, b, c]: [DVec2; 3]| orientation(a, b, c);
+    let stays = all.iter().find(|corners| !is_moved(corners)).map(at);
+    let wanted = stays.or(triangles.first().copied()).and_then(turn);
+    let is_whole = |triangle: &[DVec2; 3]| {
+        let own = turn(*triangle);
+        own == wanted && own.is_some_and(|own| own != Orientation::Collinear)
+    };
+    let folded = if triangles.iter().all(is_whole) { Vec::new() } else { vec![chart] };
+    let (mut triangles, mut chart_of): (Vec<[DVec2; 3]>, Vec<usize>) =
+        (triangles.into_iter().filter_map(counter_clockwise).collect(), Vec::new());
+    let (own, reach) = (triangles.len(), Bounds::of(triangles.iter().flatten().copied()));
+    chart_of.resize(own, chart);
+    for (number, other) in charts.iter().enumerate().filter(|(number, _)| *number != chart) {
+        let corners = other.mesh.mesh().real_triangles().iter();
+        let near = corners.map(|corners| corners.map(|vertex| other.coordinates[vertex]));
+        let near = near.filter(|corners| Bounds::of(*corners).meets(reach));
+        triangles.extend(near.filter_map(counter_clockwise));
+        chart_of.resize(triangles.len(), number);
+    }
+    let pairs = overlaps(&triangles, |a, b| (a < own) != (b < own), MOST_OVERLAPS);
     let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
     MoveVerdict { folded, overlapping: pairs.into_iter().map(of_charts).collect() }
 }

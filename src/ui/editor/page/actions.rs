@@ -13,16 +13,32 @@ impl Editor {
     /// True if the panes show all charts on the page.
     pub fn shows_page(&self) -> bool {
         let has_page = self.plane.page.scene.is_some() && self.session.page().is_some();
-        has_page && self.plane.page.is_wanted && self.tools.tool() == Tool::Select && !self.plane.comparison.is_shown()
+        has_page && self.plane.page.is_wanted && self.has_tool_of_page() && !self.plane.comparison.is_shown()
+    }
+
+    /// True if the tool works on all charts of the page. The other tools work on the chart on the screen.
+    fn has_tool_of_page(&self) -> bool {
+        matches!(self.tools.tool(), Tool::Select | Tool::Brush)
     }
 
     /// True if the page is to be shown, once all charts are solved.
     pub(in crate::ui) fn awaits_page(&self) -> bool {
-        let is_wanted = self.plane.page.is_wanted && self.tools.tool() == Tool::Select;
+        let is_wanted = self.plane.page.is_wanted && self.has_tool_of_page();
         is_wanted
             && self.plane.page.scene.is_none()
             && self.session.charts().is_some()
             && self.session.failed_chart().is_none()
+    }
+
+    /// Activates a tool. Ends a stroke of the brush, and drops a gesture on charts.
+    pub(in crate::ui::editor) fn take_up_tool(&mut self, tool: Tool) {
+        if tool != Tool::Select {
+            self.drop_gesture();
+        }
+        if tool != Tool::Brush && self.session.is_brushing() {
+            self.act(Action::EndBrush);
+        }
+        self.tools.take_up(tool);
     }
 
     pub(in crate::ui::editor) fn handle_page(&mut self, request: PageRequest) {
@@ -37,7 +53,10 @@ impl Editor {
             }
             PageRequest::Open(chart) => self.open_chart(chart),
             PageRequest::Begin(kind) => {
-                self.begin_gesture(kind, self.pointer.in_embedding(), false);
+                if self.begin_gesture(kind, self.pointer.in_embedding(), false) && self.tools.tool() != Tool::Select {
+                    // Clicks end the gesture, and do not brush.
+                    self.take_up_tool(Tool::Select);
+                }
             }
             PageRequest::Lock(axis) => self.change_gesture(|gesture| gesture.lock(axis)),
             PageRequest::Type(letter) => self.change_gesture(|gesture| gesture.type_letter(letter)),
@@ -70,7 +89,7 @@ impl Editor {
     fn show_page(&mut self, is_wanted: bool) {
         self.drop_gesture();
         self.plane.page.is_wanted = is_wanted;
-        if is_wanted {
+        if is_wanted && !self.has_tool_of_page() {
             self.tools.take_up(Tool::Select);
         }
     }

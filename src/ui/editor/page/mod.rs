@@ -24,10 +24,11 @@ use super::checker::ALONG_PAGE;
 use super::colour_table::ShownColumn;
 use super::paint::Legend;
 use super::scene::MeshScene;
-use crate::session::{ChartMove, JobFailure, MoveState, Session, Wake};
+use crate::session::{ChartMove, JobFailure, Session, Wake};
 use crate::ui::state::{PageGesture, Pane, PaneView, ShadingMode, Snap};
 use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
 use freebound_core::geom::Bounds;
+use freebound_core::problem::Embedding;
 
 /// Page in the window.
 #[derive(Debug)]
@@ -75,13 +76,16 @@ impl Outlined {
     }
 }
 
-/// Arrays of the plane while charts move, with the movements that they show.
+/// Arrays of the plane while charts move or a brush shapes a chart, with the coordinates that they show.
 #[derive(Debug)]
 struct MovedPlane {
     key: PageKey,
-    moves: Vec<ChartMove>,
+    coordinates: MovedCharts,
     plane: Arc<PlaneArrays>,
 }
+
+/// Charts at other texture coordinates.
+type MovedCharts = Vec<(usize, Arc<Embedding>)>;
 
 /// Colours of all faces.
 #[derive(Debug)]
@@ -149,7 +153,7 @@ impl PageView {
     }
 
     /// Arrays of the plane, with charts where they are moved.
-    pub(in crate::ui) fn plane(&self) -> Option<&Arc<PlaneArrays>> {
+    pub fn plane(&self) -> Option<&Arc<PlaneArrays>> {
         let scene = self.scene.as_ref()?;
         let moved = self.moved.as_ref().filter(|moved| moved.key == scene.key);
         Some(moved.map_or(&scene.plane, |moved| &moved.plane))
@@ -235,7 +239,7 @@ impl PageView {
             let space = PageSpace { unit: given.unit(), sphere: given.sphere };
             self.job.make(key, move |_| PageScene::new(key, &page, space, before.as_deref()));
         }
-        self.refresh_moved(session.move_state());
+        self.refresh_moved(session);
         for outlined in [&mut self.selected, &mut self.hovered] {
             outlined.refresh(self.scene.as_deref());
         }
@@ -254,21 +258,34 @@ impl PageView {
         }
     }
 
-    /// Draws charts where an accepted frame of a move has them. They stay there until the next scene.
-    fn refresh_moved(&mut self, state: Option<&MoveState>) {
+    /// Draws charts where an accepted frame of a move or of a stroke has them. They stay there until the next scene.
+    fn refresh_moved(&mut self, session: &Session) {
         let Some(scene) = &self.scene else { return };
-        let Some(state) = state else {
-            if self.asked.take().is_none() && !self.job.is_busy() {
-                // The move was dropped, or kept back.
+        let of_stroke = session.page_stroke().map(|stroke| {
+            let coordinates = stroke.coordinates().map(|at| (stroke.chart(), Arc::clone(at)));
+            coordinates.into_iter().collect::<MovedCharts>()
+        });
+        let of_move =
+            || session.move_state().map(|state| state.accepted.as_ref().map(|judged| judged.coordinates.clone()));
+        let Some(coordinates) = of_stroke.map(Some).or_else(of_move) else {
+            // The page shows the document again: the move or the stroke was dropped, or kept back.
+            if self.asked.take().is_none() && !self.job.is_busy() && session.can_move_charts() {
                 self.moved = None;
             }
             return;
         };
-        let Some(judged) = &state.accepted else { return };
-        let is_shown = |moved: &MovedPlane| moved.key == scene.key && moved.moves == judged.moves;
+        let Some(coordinates) = coordinates.filter(|coordinates| !coordinates.is_empty()) else { return };
+        let is_same = |((a, at), (b, other)): (&(usize, Arc<Embedding>), &(usize, Arc<Embedding>))| {
+            a == b && Arc::ptr_eq(at, other)
+        };
+        let is_shown = |moved: &MovedPlane| {
+            moved.key == scene.key
+                && moved.coordinates.len() == coordinates.len()
+                && moved.coordinates.iter().zip(&coordinates).all(is_same)
+        };
         if !self.moved.as_ref().is_some_and(is_shown) {
-            let plane = Arc::new(scene.moved(judged));
-            self.moved = Some(MovedPlane { key: scene.key, moves: judged.moves.clone(), plane });
+            let plane = Arc::new(scene.moved(&coordinates));
+            self.moved = Some(MovedPlane { key: scene.key, coordinates, plane });
         }
     }
 

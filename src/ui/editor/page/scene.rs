@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::session::{ChartPage, JudgedMove, PageChart};
+use crate::session::{ChartPage, PageChart};
 use crate::ui::editor::colour_table::{ShownColumn, vertices_in_file};
 use crate::ui::editor::paint::{Legend, column_paint};
 use crate::ui::state::ShadingMode;
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker};
 use freebound_core::geom::{Bounds, winding_number};
 use freebound_core::mesh::{FaceId, VertexId};
+use freebound_core::problem::Embedding;
 
 /// Inputs of a scene: revisions of the page and of the mesh on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,6 +163,25 @@ impl PageScene {
         under.min_by(|a, b| size(a).total_cmp(&size(b)))
     }
 
+    /// Chart that covers a point of the plane, or else the chart with the nearest vertex of an outline within a distance.
+    pub(in crate::ui) fn chart_near(&self, point: DVec2, distance: f64) -> Option<usize> {
+        let is_own = |chart: &usize| self.charts[*chart].stacked.is_none();
+        let within = |chart: &usize| {
+            let Bounds { low, high } = self.bounds[*chart];
+            point.cmpge(low - distance).all() && point.cmple(high + distance).all()
+        };
+        let away = |chart: usize| {
+            let outline = self.outlines_of(chart).flatten();
+            (outline.map(|at| at.distance(point)).fold(f64::INFINITY, f64::min), chart)
+        };
+        let nearest = || {
+            let near = (0..self.spans.len()).filter(is_own).filter(within).map(away);
+            let least = near.min_by(|(a, _), (b, _)| a.total_cmp(b));
+            least.filter(|(away, _)| *away <= distance).map(|(_, chart)| chart)
+        };
+        self.chart_at(point).or_else(nearest)
+    }
+
     /// Charts with a point of their outlines at a place that counts. `is_inside` decides about places.
     pub(in crate::ui) fn charts_within(&self, is_inside: impl Fn(DVec2) -> bool) -> Vec<usize> {
         let is_within = |&chart: &usize| self.outlines_of(chart).flatten().any(&is_inside);
@@ -192,11 +212,11 @@ impl PageScene {
         self.spans.iter().position(|span| span.faces.contains(&face))
     }
 
-    /// Arrays of the plane with charts at the places of a move.
-    pub(super) fn moved(&self, judged: &JudgedMove) -> PlaneArrays {
+    /// Arrays of the plane with charts at other texture coordinates.
+    pub(super) fn moved(&self, charts: &[(usize, Arc<Embedding>)]) -> PlaneArrays {
         let plane = DVec2::new(self.aspect, 1.0);
         let mut places = self.places.to_vec();
-        for (chart, coordinates) in &judged.coordinates {
+        for (chart, coordinates) in charts {
             if let Some(span) = self.spans.get(*chart) {
                 places[span.vertices.clone()].iter_mut().zip(coordinates.iter()).for_each(|(at, uv)| *at = *uv * plane);
             }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use freebound_core::geom::Random;
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::problem::Embedding;
-use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict};
+use freebound_core::verify::{ChartInPlane, MoveVerdict, move_verdict, shaped_verdict, verdict};
 use freebound_testkit::oracle::overlapping_pairs;
 use freebound_testkit::sheet;
 use glam::DVec2;
@@ -58,6 +58,35 @@ fn overlaps_of_moved_charts_are_those_of_exact_clipping() {
         assert_eq!(verdict.is_planar(), expected.is_empty());
     }
     assert!(apart > 5 && over > 5, "{apart} {over}");
+}
+
+#[test]
+fn moved_vertices_of_a_chart_are_judged_as_all_of_it_is() {
+    let mut random = Random(5);
+    let (mut folded, mut over, mut planar) = (0, 0, 0);
+    for _ in 0..80 {
+        let mut charts =
+            [square(3, DVec2::ZERO), square(2, DVec2::new(1.125, 0.25)), square(2, DVec2::new(-1.125, 0.0))];
+        // The middle chart is turned over now and then.
+        if random.below(2) == 0 {
+            charts[0].1 = charts[0].1.iter().map(|z| DVec2::new(1.0 - z.x, z.y)).collect();
+        }
+        let moved: Vec<VertexId> = (0..1 + random.below(2)).map(|_| VertexId::new(random.below(16))).collect();
+        for &vertex in &moved {
+            let by = DVec2::new(random.below(9).into(), random.below(9).into()) / 16.0 - 0.25;
+            charts[0].1[vertex] += by;
+        }
+        let in_plane: Vec<ChartInPlane<'_>> =
+            charts.iter().map(|(mesh, coordinates)| ChartInPlane { mesh, coordinates }).collect();
+        let shaped = shaped_verdict(&in_plane, 0, &moved);
+        assert_eq!(shaped.overlapping, clipped(&charts), "{moved:?}");
+        let alone = verdict(&charts[0].0, &charts[0].1);
+        assert_eq!(!shaped.folded.is_empty(), !alone.flipped_faces.is_empty(), "{moved:?} {alone:?}");
+        folded += usize::from(!shaped.folded.is_empty());
+        over += usize::from(!shaped.overlapping.is_empty());
+        planar += usize::from(shaped.is_planar());
+    }
+    assert!(folded > 5 && over > 5 && planar > 5, "{folded} {over} {planar}");
 }
 
 #[test]

@@ -1,0 +1,178 @@
+//! Stroke of a brush on a chart of the page: where the chart lies, and its last frame that overlaps no other chart.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::action::BrushDab;
+use super::page::{ChartPage, PageChart};
+use freebound_core::bijective::Brush;
+use freebound_core::geom::{Bounds, Similarity};
+use freebound_core::mesh::VertexId;
+use freebound_core::problem::Embedding;
+use freebound_core::verify::MoveVerdict;
+
+/// Largest distance between a chart and its similar image on the page, relative to the image, at which the chart counts
+/// as lying there.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Similarity from the plane of a chart's map to the page's plane, with or without a reflection.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartPlacement {
+    /// Similarity of the map, or of the map reflected in the vertical axis.
+    similarity: Similarity,
+    is_mirrored: bool,
+}
+
+impl ChartPlacement {
+    /// Placement of a chart on a page with this width over height. `None` if the chart is not similar to its map there.
+    pub(super) fn of(chart: &PageChart, aspect: f64) -> Option<Self> {
+        let map = &chart.outcome.step.candidate.solution.embedding;
+        let plane = DVec2::new(aspect, 1.0);
+        let fitted = |is_mirrored: bool| {
+            let image = chart.coordinates.iter().map(|uv| *uv * plane);
+            let pairs = map.iter().map(|z| reflected(*z, is_mirrored)).zip(image).map(|(from, to)| [from, to]);
+            let pairs: Vec<[DVec2; 2]> = pairs.filter(|[from, to]| from.is_finite() && to.is_finite()).collect();
+            let similarity = Similarity::fitting(&pairs)?;
+            let spread = Bounds::of(pairs.iter().map(|[_, to]| *to)).diameter();
+            Some((Self { similarity, is_mirrored }, similarity.error(&pairs) / spread))
+        };
+        let fits = [false, true].into_iter().filter_map(fitted);
+        let (placement, error) = fits.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        (error <= SAME_PLACE).then_some(placement)
+    }
+
+    /// Position in the page's plane of a point of the map.
+    pub fn to_page(&self, point: DVec2) -> DVec2 {
+        self.similarity.apply(reflected(point, self.is_mirrored))
+    }
+
+    /// Point of the map at a position in the page's plane.
+    pub fn from_page(&self, at: DVec2) -> DVec2 {
+        reflected(self.similarity.inverse().apply(at), self.is_mirrored)
+    }
+
+    /// Length on the page of a unit of the map.
+    pub fn scale(&self) -> f64 {
+        self.similarity.factor()
+    }
+
+    /// Brush in the plane of the map, for a brush in the page's plane.
+    pub(super) fn dab_from_page(&self, BrushDab { brush, at }: BrushDab) -> BrushDab {
+        let brush = Brush { radius: brush.radius / self.scale(), ..brush };
+        BrushDab { brush, at: self.from_page(at) }
+    }
+}
+
+fn reflected(point: DVec2, is_mirrored: bool) -> DVec2 {
+    if is_mirrored { DVec2::new(-point.x, point.y) } else { point }
+}
+
+/// Chart of the page that a brush shapes.
+#[derive(Clone, Debug)]
+pub struct PageStroke {
+    among: AmongCharts,
+    /// True if the chart may come to overlap others.
+    insists: bool,
+    /// Newest frame that was accepted.
+    accepted: Option<ShapedFrame>,
+    /// Newest accepted frame without overlaps.
+    last_planar: Option<ShapedFrame>,
+    /// Verdict on a newer frame that other charts keep back.
+    kept_back: Option<MoveVerdict>,
+}
+
+/// Frame of a stroke.
+#[derive(Clone, Debug)]
+struct ShapedFrame {
+    map: Arc<Embedding>,
+    coordinates: Arc<Embedding>,
+    verdict: MoveVerdict,
+}
+
+/// Chart among the charts of the page, for verdicts on its frames.
+#[derive(Clone, Debug)]
+pub(super) struct AmongCharts {
+    page: ChartPage,
+    chart: usize,
+    placement: ChartPlacement,
+}
+
+impl AmongCharts {
+    /// Coordinates of the chart with this map, and the verdict on it among the other charts. `moved` are the vertices
+    /// that may have moved.
+    pub(super) fn judge(&self, map: &Embedding, moved: &[VertexId]) -> (MoveVerdict, Arc<Embedding>) {
+        let plane = DVec2::new(self.page.aspect, 1.0);
+        let mut coordinates = Embedding::clone(&self.page.charts[self.chart].coordinates);
+        for &vertex in moved {
+            coordinates[vertex] = self.placement.to_page(map[vertex]) / plane;
+        }
+        (self.page.judge_shaped(self.chart, &coordinates, moved), Arc::new(coordinates))
+    }
+}
+
+impl PageStroke {
+    /// Stroke on a chart. `None` if the chart does not lie on the page.
+    pub(super) fn new(page: &ChartPage, chart: usize) -> Option<Self> {
+        let on_page = page.charts.get(chart)?;
+        let placement = ChartPlacement::of(on_page, page.aspect)?;
+        let among = AmongCharts { page: page.clone(), chart, placement };
+        Some(Self { among, insists: false, accepted: None, last_planar: None, kept_back: None })
+    }
+
+    /// The chart.
+    pub fn chart(&self) -> usize {
+        self.among.chart
+    }
+
+    /// Place of the chart on the page at the beginning of the stroke.
+    pub fn placement(&self) -> ChartPlacement {
+        self.among.placement
+    }
+
+    /// Texture coordinates of the chart in the newest accepted frame.
+    pub fn coordinates(&self) -> Option<&Arc<Embedding>> {
+        self.accepted.as_ref().map(|frame| &frame.coordinates)
+    }
+
+    /// Verdict on the newest frame, if other charts keep it back.
+    pub fn kept_back(&self) -> Option<&MoveVerdict> {
+        self.kept_back.as_ref()
+    }
+
+    /// Verdict on the newest accepted frame.
+    pub fn verdict(&self) -> Option<&MoveVerdict> {
+        self.accepted.as_ref().map(|frame| &frame.verdict)
+    }
+
+    pub(super) fn set_insists(&mut self, insists: bool) {
+        self.insists = insists;
+    }
+
+    pub(super) fn among(&self) -> AmongCharts {
+        self.among.clone()
+    }
+
+    /// Accepts a frame, or keeps it back. Overlaps that were accepted before end if the user no longer insists.
+    pub(super) fn take(&mut self, verdict: MoveVerdict, map: &Embedding, coordinates: Arc<Embedding>) {
+        let is_planar = verdict.is_planar();
+        if !is_planar && !self.insists {
+            if self.verdict().is_some_and(|accepted| !accepted.is_planar()) {
+                self.accepted = self.last_planar.clone();
+            }
+            self.kept_back = Some(verdict);
+            return;
+        }
+        let frame = ShapedFrame { map: Arc::new(map.clone()), coordinates, verdict };
+        if is_planar {
+            self.last_planar = Some(frame.clone());
+        }
+        (self.accepted, self.kept_back) = (Some(frame), None);
+    }
+
+    /// Map and coordinates of the newest accepted frame; `None` if the stroke changes nothing.
+    pub(super) fn into_shaped(self) -> Option<(Arc<Embedding>, Arc<Embedding>)> {
+        let before = &self.among.page.charts[self.among.chart].outcome.step.candidate.solution.embedding;
+        self.accepted.filter(|frame| *frame.map != *before).map(|frame| (frame.map, frame.coordinates))
+    }
+}
