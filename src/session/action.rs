@@ -64,6 +64,8 @@ pub struct BrushDab {
     pub brush: Brush,
     /// Position of the pointer.
     pub at: DVec2,
+    /// True if the button was pressed for it. Otherwise it only continues a stroke.
+    pub begins: bool,
 }
 
 /// Brush on a chart of the page. Radius and position are in the page's plane.

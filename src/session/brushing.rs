@@ -18,18 +18,20 @@ use super::chart_layout::ChartPlace;
 use super::drag_request::Screen;
 use super::live::Frame;
 use super::page::PageChart;
-use super::page_stroke::PageStroke;
+use super::page_actions::given_place;
+use super::page_stroke::{PageStroke, ShapedFrame};
 use super::stop::Goal;
 use super::{Background, ChartEdits, Command, MessagePlace, Session, Wake};
-use freebound_core::bijective::{BrushFrame, BrushSolver, DragFrame};
+use freebound_core::bijective::{BrushFrame, BrushKind, BrushSolver, DragFrame};
 use freebound_core::mesh::{DiskMesh, VertexId};
 use freebound_core::pipeline::{Outcome, Problem, ShapedMap};
 use freebound_core::problem::{Control, Embedding};
-use freebound_core::verify::MoveVerdict;
 
 /// Strokes of brushes.
 pub(super) struct Brushing {
     stroke: Option<Stroke>,
+    /// Chart that a stroke on the page has shaped, and its problem since then. The page does not have the map yet.
+    awaited: Option<(usize, Problem)>,
     frames: Background<(), Option<BrushedFrame>>,
 }
 
@@ -37,8 +39,8 @@ pub(super) struct Brushing {
 struct BrushedFrame {
     solver: BrushSolver,
     frame: BrushFrame,
-    /// Verdict on the chart among the others, and its coordinates, on the page.
-    on_page: Option<(MoveVerdict, Arc<Embedding>)>,
+    /// Frame on the page, judged.
+    on_page: Option<ShapedFrame>,
 }
 
 /// Stroke in progress.
@@ -61,7 +63,7 @@ struct Stroke {
 
 impl Brushing {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { stroke: None, frames: Background::new("brush", wake) }
+        Self { stroke: None, awaited: None, frames: Background::new("brush", wake) }
     }
 
     /// True while a frame is being computed.
@@ -94,12 +96,6 @@ impl Brushing {
             Some(BrushedFrame { solver, frame, on_page })
         });
     }
-}
-
-/// True if a map is proved planar as brushes need it: the final map of a run, in the orientation of the surface.
-fn is_planar(outcome: &Outcome) -> bool {
-    let step = &outcome.step;
-    outcome.can_be_saved() && step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start()
 }
 
 impl Stroke {
@@ -166,7 +162,7 @@ impl Session {
         if !is_at_rest || !self.is_current() || !self.has_form_as_wanted() {
             return None;
         }
-        self.outcome().filter(|outcome| is_planar(outcome))
+        self.outcome().filter(|outcome| outcome.can_be_saved())
     }
 
     fn brushed_screen(&self) -> Option<Screen> {
@@ -182,9 +178,7 @@ impl Session {
     fn chart_to_brush(&self, chart: usize) -> Option<&PageChart> {
         let page = self.page().filter(|_| self.can_move_charts() && !self.is_moving_charts())?;
         let on_page = page.charts.get(chart).filter(|on_page| on_page.stacked.is_none())?;
-        let has_new_vertices = on_page.outcome.step.candidate.refinement.is_some();
-        let is_fit = is_planar(&on_page.outcome) && !has_new_vertices && !self.history.is_in_gesture();
-        is_fit.then_some(on_page)
+        (on_page.outcome.can_be_saved() && !self.history.is_in_gesture()).then_some(on_page)
     }
 
     /// Planar map of a chart of the page that brushes can shape, and its stroke.
@@ -201,7 +195,7 @@ impl Session {
             if stroke.on_page.is_none() {
                 stroke.follow(dab.at);
             }
-        } else {
+        } else if dab.begins {
             let (Some(screen), Some(mesh)) = (self.brushed_screen(), self.disk().cloned()) else { return };
             self.brushing.stroke = Some(Stroke::new(dab, mesh, screen));
         }
@@ -211,11 +205,13 @@ impl Session {
     /// Applies a brush to a chart of the page: starts a stroke, or continues it.
     pub(super) fn brush_on_page(&mut self, PageDab { chart, dab, insists }: PageDab) {
         if let Some(stroke) = &mut self.brushing.stroke {
-            let Some(page) = stroke.on_page.as_mut().filter(|page| page.chart() == chart) else { return };
+            let is_ending = stroke.is_ending;
+            let page = stroke.on_page.as_mut().filter(|page| page.chart() == chart && !is_ending);
+            let Some(page) = page else { return };
             page.set_insists(insists);
             let at = page.placement().from_page(dab.at);
             stroke.follow(at);
-        } else {
+        } else if dab.begins {
             let Some((mesh, screen, mut page)) = self.brushed_chart(chart) else { return };
             page.set_insists(insists);
             let dab = page.placement().dab_from_page(dab);
@@ -260,27 +256,46 @@ impl Session {
         }
     }
 
-    /// True if the document has changed since the stroke began.
+    /// True if the document, the mesh or the page has changed since the stroke began.
     fn is_stroke_outdated(&self) -> bool {
         let Some(stroke) = &self.brushing.stroke else { return false };
         let wanted = match &stroke.on_page {
-            None => Some(self.document.problem()),
+            None => {
+                let disk = self.disk().filter(|disk| Arc::ptr_eq(disk, &stroke.mesh));
+                disk.map(|_| self.document.problem())
+            }
             Some(page) => {
-                let of = self.model().and_then(|model| model.prepared.chart.as_ref());
-                let edits = of.map(|of| self.document.edits_of(page.chart(), of));
-                edits.filter(|_| self.can_move_charts()).map(|edits| self.document.problem_with(edits))
+                let is_there = self.can_move_charts() && self.page().is_some_and(|now| now.revision == page.revision());
+                self.problem_of_chart(page.chart()).filter(|_| is_there)
             }
         };
-        wanted.as_ref() != Some(&stroke.problem)
+        !wanted.is_some_and(|wanted| stroke.problem.has_steps_of(&wanted))
+    }
+
+    /// Problem of a chart of the document.
+    fn problem_of_chart(&self, chart: usize) -> Option<Problem> {
+        let of = self.model()?.prepared.chart.as_ref()?;
+        Some(self.document.problem_with(self.document.edits_of(chart, of)))
+    }
+
+    /// True if a stroke on the page has ended, and the page does not have its map yet.
+    pub fn awaits_stroke(&self) -> bool {
+        let awaited = self.brushing.awaited.as_ref();
+        awaited.is_some_and(|(chart, problem)| self.problem_of_chart(*chart).as_ref() == Some(problem))
+            && !self.can_move_charts()
     }
 
     fn take_frame(&mut self, BrushedFrame { solver, frame, on_page }: BrushedFrame) {
         let Some(stroke) = &mut self.brushing.stroke else { return };
         stroke.has_moved |= !solver.moved().is_empty();
-        if let (Some(page), Some((verdict, coordinates))) = (&mut stroke.on_page, on_page) {
-            page.take(verdict, solver.embedding(), coordinates);
-        }
+        let is_accepted = stroke.on_page.as_mut().zip(on_page).is_none_or(|(page, frame)| page.take(frame));
         (stroke.solver, stroke.frame) = (Some(Box::new(solver)), Some(frame));
+        if let Some(page) = stroke.on_page.as_mut().filter(|_| !is_accepted && stroke.dab.brush.kind != BrushKind::Grab)
+        {
+            // The effects of frames add up, so the next frame begins where this one is kept back. A grab follows the
+            // pointer back by itself.
+            (stroke.begin, stroke.solver) = (page.begin_again(), None);
+        }
         let is_on_screen = stroke.has_moved && stroke.on_page.is_none();
         if let Some(frame) = stroke.preview().filter(|_| is_on_screen) {
             self.drag.show_live(frame);
@@ -316,9 +331,11 @@ impl Session {
         let Some(mut layout) = self.layout_as_it_lies() else { return };
         let Some(of) = self.model().and_then(|model| model.prepared.chart.clone()) else { return };
         let first_face = of.charts.first_face(chart);
-        let places = if layout.locked.contains_key(&first_face) { &mut layout.locked } else { &mut layout.placed };
-        if let Some(place) = places.get_mut(&first_face) {
-            *place = ChartPlace(coordinates);
+        let is_locked = layout.lock_of(&of.charts, chart).is_some();
+        let places = if is_locked { &mut layout.locked } else { &mut layout.placed };
+        // A chart with pins has no entry: its pins place it.
+        if let (Some(place), Some(page)) = (places.get_mut(&first_face), self.page()) {
+            *place = ChartPlace(given_place(&page.charts[chart], &coordinates));
         }
         let is_shown = of.charts.pick(self.document.chart) == chart;
         let edits = ChartEdits { shaped: Some(ShapedMap(shaped)), relaxed: 0, ..self.document.edits_of(chart, &of) };
@@ -328,7 +345,12 @@ impl Session {
             vec![Command::SetElsewhere { chart, edits }]
         };
         commands.push(Command::SetLayout(Box::new(layout)));
-        if self.apply(Command::Together(commands)) && is_shown {
+        self.remember_charts([chart]);
+        if !self.apply(Command::Together(commands)) {
+            return;
+        }
+        self.brushing.awaited = self.problem_of_chart(chart).map(|problem| (chart, problem));
+        if is_shown {
             self.solving.follow_newest();
             self.begin(Goal::Until(self.stop_conditions()));
         }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::solving::{Next, Solving, StopReason, Task};
+use super::solving::{Next, Solved, Solving, StopReason, Task};
 use super::stop::Goal;
 use super::{Background, Document, Messages, Model, StopConditions, TIMELINE_BUDGET, Timeline, Wake};
 use freebound_core::pipeline::{ChartOf, Outcome, Problem};
@@ -114,6 +114,13 @@ impl OtherCharts {
     /// Model and steps of a chart that is extracted.
     pub(super) fn other(&self, number: usize) -> Option<(&Arc<Model>, &Timeline)> {
         self.others.get(&number).map(|other| (&other.model, other.solving.timeline()))
+    }
+
+    /// Restores a solution of a chart that is not shown.
+    pub(super) fn show_again(&mut self, number: usize, solved: Solved, task: Task) {
+        if let Some(other) = self.others.get_mut(&number) {
+            other.solving.show_again(solved, task, &mut other.messages);
+        }
     }
 
     fn running_count(&self) -> usize {

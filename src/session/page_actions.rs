@@ -208,7 +208,7 @@ impl Session {
         };
         self.messages.forget_notes();
         let note = Message::note(MessagePlace::Embedding, words);
-        self.messages.say(note.with_remedy("hold Alt at the end of a move to let charts overlap"));
+        self.messages.say(note.with_remedy("hold Alt at the end to let charts overlap"));
     }
 
     /// Packs charts that are placed, as an edit: these charts, or all of them. Locked charts stay.
@@ -314,7 +314,7 @@ impl Session {
 }
 
 /// Coordinates of a chart without those of new vertices.
-fn given_place(chart: &PageChart, coordinates: &Arc<Embedding>) -> Arc<Embedding> {
+pub(super) fn given_place(chart: &PageChart, coordinates: &Arc<Embedding>) -> Arc<Embedding> {
     match chart.given_count() {
         count if count == coordinates.len() => Arc::clone(coordinates),
         count => Arc::new(coordinates.iter().take(count).copied().collect()),

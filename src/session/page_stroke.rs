@@ -1,5 +1,6 @@
 //! Stroke of a brush on a chart of the page: where the chart lies, and its last frame that overlaps no other chart.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -12,8 +13,8 @@ use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
 use freebound_core::verify::MoveVerdict;
 
-/// Largest distance between a chart and its similar image on the page, relative to the image, at which the chart counts
-/// as lying there.
+/// Root mean square of the distances between a chart on the page and the similar image of its map, relative to the
+/// image's diameter, up to which the chart counts as similar to its map.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Similarity from the plane of a chart's map to the page's plane, with or without a reflection.
@@ -58,10 +59,28 @@ impl ChartPlacement {
     }
 
     /// Brush in the plane of the map, for a brush in the page's plane.
-    pub(super) fn dab_from_page(&self, BrushDab { brush, at }: BrushDab) -> BrushDab {
+    pub(super) fn dab_from_page(&self, BrushDab { brush, at, begins }: BrushDab) -> BrushDab {
         let brush = Brush { radius: brush.radius / self.scale(), ..brush };
-        BrushDab { brush, at: self.from_page(at) }
+        BrushDab { brush, at: self.from_page(at), begins }
     }
+}
+
+/// Charts that lie on a chart, each with the vertex of the chart under each of its vertices: the one at the same place.
+fn stacked_on(page: &ChartPage, chart: usize) -> Vec<(usize, Vec<VertexId>)> {
+    let bits = |uv: &DVec2| [uv.x.to_bits(), uv.y.to_bits()];
+    let own = &page.charts[chart].coordinates;
+    let members = page.charts.iter().enumerate().filter(|(_, other)| other.stacked.is_some_and(|on| on.chart == chart));
+    let members: Vec<(usize, &PageChart)> = members.collect();
+    if members.is_empty() {
+        return Vec::new();
+    }
+    let at: HashMap<[u64; 2], VertexId> =
+        own.iter().enumerate().map(|(vertex, uv)| (bits(uv), VertexId::from_index(vertex))).collect();
+    let under = |(number, member): (usize, &PageChart)| {
+        let vertices = member.coordinates.iter().map(|uv| at.get(&bits(uv)).copied());
+        Some((number, vertices.collect::<Option<Vec<VertexId>>>()?))
+    };
+    members.into_iter().filter_map(under).collect()
 }
 
 fn reflected(point: DVec2, is_mirrored: bool) -> DVec2 {
@@ -72,6 +91,8 @@ fn reflected(point: DVec2, is_mirrored: bool) -> DVec2 {
 #[derive(Clone, Debug)]
 pub struct PageStroke {
     among: AmongCharts,
+    /// Charts that lie on the chart, each with the vertex of the chart under each of its vertices.
+    stacked: Vec<(usize, Vec<VertexId>)>,
     /// True if the chart may come to overlap others.
     insists: bool,
     /// Newest frame that was accepted.
@@ -82,11 +103,11 @@ pub struct PageStroke {
     kept_back: Option<MoveVerdict>,
 }
 
-/// Frame of a stroke.
+/// Frame of a stroke, judged.
 #[derive(Clone, Debug)]
-struct ShapedFrame {
-    map: Arc<Embedding>,
-    coordinates: Arc<Embedding>,
+pub(super) struct ShapedFrame {
+    pub(super) map: Arc<Embedding>,
+    pub(super) coordinates: Arc<Embedding>,
     verdict: MoveVerdict,
 }
 
@@ -96,28 +117,32 @@ pub(super) struct AmongCharts {
     page: ChartPage,
     chart: usize,
     placement: ChartPlacement,
+    /// Coordinates from which vertices have moved.
+    begin: Arc<Embedding>,
 }
 
 impl AmongCharts {
-    /// Coordinates of the chart with this map, and the verdict on it among the other charts. `moved` are the vertices
-    /// that may have moved.
-    pub(super) fn judge(&self, map: &Embedding, moved: &[VertexId]) -> (MoveVerdict, Arc<Embedding>) {
+    /// Frame with this map, judged among the other charts. `moved` are the vertices that may have moved.
+    pub(super) fn judge(&self, map: &Embedding, moved: &[VertexId]) -> ShapedFrame {
         let plane = DVec2::new(self.page.aspect, 1.0);
-        let mut coordinates = Embedding::clone(&self.page.charts[self.chart].coordinates);
+        let mut coordinates = Embedding::clone(&self.begin);
         for &vertex in moved {
             coordinates[vertex] = self.placement.to_page(map[vertex]) / plane;
         }
-        (self.page.judge_shaped(self.chart, &coordinates, moved), Arc::new(coordinates))
+        let verdict = self.page.judge_shaped(self.chart, &coordinates, moved);
+        ShapedFrame { map: Arc::new(map.clone()), coordinates: Arc::new(coordinates), verdict }
     }
 }
 
 impl PageStroke {
-    /// Stroke on a chart. `None` if the chart does not lie on the page.
+    /// Stroke on a chart. `None` if the chart is not similar to its map on the page.
     pub(super) fn new(page: &ChartPage, chart: usize) -> Option<Self> {
         let on_page = page.charts.get(chart)?;
         let placement = ChartPlacement::of(on_page, page.aspect)?;
-        let among = AmongCharts { page: page.clone(), chart, placement };
-        Some(Self { among, insists: false, accepted: None, last_planar: None, kept_back: None })
+        let stacked = stacked_on(page, chart);
+        let begin = Arc::clone(&on_page.coordinates);
+        let among = AmongCharts { page: page.clone(), chart, placement, begin };
+        Some(Self { among, stacked, insists: false, accepted: None, last_planar: None, kept_back: None })
     }
 
     /// The chart.
@@ -130,9 +155,23 @@ impl PageStroke {
         self.among.placement
     }
 
+    /// Number of changes of the page that the stroke is on.
+    pub(super) fn revision(&self) -> u64 {
+        self.among.page.revision
+    }
+
     /// Texture coordinates of the chart in the newest accepted frame.
     pub fn coordinates(&self) -> Option<&Arc<Embedding>> {
         self.accepted.as_ref().map(|frame| &frame.coordinates)
+    }
+
+    /// Texture coordinates of a chart that lies on the chart, for coordinates of the chart.
+    pub fn stacked_coordinates<'a>(
+        &'a self,
+        coordinates: &'a Embedding,
+    ) -> impl Iterator<Item = (usize, Embedding)> + 'a {
+        let of = |under: &Vec<VertexId>| under.iter().map(|&vertex| coordinates[vertex]).collect();
+        self.stacked.iter().map(move |(chart, under)| (*chart, of(under)))
     }
 
     /// Verdict on the newest frame, if other charts keep it back.
@@ -153,21 +192,37 @@ impl PageStroke {
         self.among.clone()
     }
 
-    /// Accepts a frame, or keeps it back. Overlaps that were accepted before end if the user no longer insists.
-    pub(super) fn take(&mut self, verdict: MoveVerdict, map: &Embedding, coordinates: Arc<Embedding>) {
-        let is_planar = verdict.is_planar();
+    /// Accepts a frame, or keeps it back. Overlaps that were accepted before end if the user no longer insists. Returns
+    /// true if the frame is accepted.
+    pub(super) fn take(&mut self, frame: ShapedFrame) -> bool {
+        let is_planar = frame.verdict.is_planar();
         if !is_planar && !self.insists {
             if self.verdict().is_some_and(|accepted| !accepted.is_planar()) {
                 self.accepted = self.last_planar.clone();
             }
-            self.kept_back = Some(verdict);
-            return;
+            self.kept_back = Some(frame.verdict);
+            return false;
         }
-        let frame = ShapedFrame { map: Arc::new(map.clone()), coordinates, verdict };
         if is_planar {
             self.last_planar = Some(frame.clone());
         }
         (self.accepted, self.kept_back) = (Some(frame), None);
+        true
+    }
+
+    /// Begins anew from the newest accepted frame. Returns its map, or the map before the stroke.
+    pub(super) fn begin_again(&mut self) -> Arc<Embedding> {
+        let on_page = &self.among.page.charts[self.among.chart];
+        match &self.accepted {
+            Some(frame) => {
+                self.among.begin = Arc::clone(&frame.coordinates);
+                Arc::clone(&frame.map)
+            }
+            None => {
+                self.among.begin = Arc::clone(&on_page.coordinates);
+                Arc::new(on_page.outcome.step.candidate.solution.embedding.clone())
+            }
+        }
     }
 
     /// Map and coordinates of the newest accepted frame; `None` if the stroke changes nothing.

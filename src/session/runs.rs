@@ -1,6 +1,8 @@
 //! Runs that solve the document.
 
-use super::past::{BUDGET_OF_ONE, State};
+use std::sync::Arc;
+
+use super::past::{BUDGET_OF_ONE, Solution, State};
 use super::solving::{Beginning, Next, StopReason, Task};
 use super::stop::Goal;
 use super::{Command, Session};
@@ -271,19 +273,58 @@ impl Session {
         if self.history.is_in_gesture() && !self.is_current() {
             return;
         }
-        self.history.past_mut().forget(place);
+        self.history.past_mut().forget(place, Solution::Shown);
         let mesh = self.disk().filter(|_| self.has_form_as_wanted()).cloned();
         let solved = self.solving.solved(&self.document.problem(), BUDGET_OF_ONE);
         if let (Some(mesh), Some(solved)) = (mesh, solved) {
-            self.history.past_mut().keep(place, State { mesh, relaxed: self.document.relaxed, solved });
+            self.history.past_mut().keep(
+                place,
+                Solution::Shown,
+                State { mesh, relaxed: self.document.relaxed, solved },
+            );
         }
+    }
+
+    /// Stores the solutions of charts that are not shown, before an edit of these charts.
+    pub(super) fn remember_charts(&mut self, charts: impl IntoIterator<Item = usize>) {
+        let place = self.history.depth();
+        for chart in charts {
+            let solved =
+                self.charts.solving(chart).zip(self.task_of_chart(chart)).and_then(|(solving, (task, relaxed))| {
+                    let solved = solving.solved(&task.problem, BUDGET_OF_ONE)?;
+                    Some(State { mesh: task.mesh, relaxed, solved })
+                });
+            if let Some(state) = solved {
+                self.history.past_mut().keep(place, Solution::Chart(chart), state);
+            }
+        }
+    }
+
+    /// Restores the stored solutions of charts that are not shown.
+    pub(super) fn recall_charts(&mut self) {
+        let place = self.history.depth();
+        for chart in self.history.past_mut().charts(Some(place)) {
+            let Some((task, relaxed)) = self.task_of_chart(chart) else { continue };
+            if let Some(solved) = self.history.past_mut().take(place, Solution::Chart(chart), &task, relaxed) {
+                self.charts.show_again(chart, solved, task);
+            }
+        }
+    }
+
+    /// Task of a chart that is not shown, and its number of relaxation rounds.
+    fn task_of_chart(&self, chart: usize) -> Option<(Task, usize)> {
+        let of = self.model()?.prepared.chart.as_ref().filter(|of| of.number != chart)?;
+        let (edits, model) = (self.document.edits_of(chart, of), self.charts.model(chart)?);
+        let (relaxed, mesh) = (edits.relaxed, Arc::clone(model.disk()?));
+        let problem = self.document.problem_with(edits);
+        Some((Task { model: Arc::clone(model), mesh, problem, from: None }, relaxed))
     }
 
     /// Shows the stored solution of the document. Returns false if none is stored.
     pub(super) fn recall(&mut self) -> bool {
         let Some(task) = self.task() else { return false };
         let (place, relaxed) = (self.history.depth(), self.document.relaxed);
-        let Some(solved) = self.history.past_mut().take(place, &task, relaxed) else { return false };
+        let Some(solved) = self.history.past_mut().take(place, Solution::Shown, &task, relaxed) else { return false };
         self.drag.end();
         self.solving.show_again(solved, task, &mut self.messages);
         true

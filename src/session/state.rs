@@ -249,6 +249,7 @@ impl Session {
         if self.history.can_redo() {
             self.mesh.want(None);
             self.unwrapping.cancel();
+            self.give_up_brush();
         }
         self.travel(History::redo);
     }
@@ -261,9 +262,12 @@ impl Session {
             |session: &Self| (session.document.problem(), session.document.relaxed, session.history.taken_to());
         let (form, before) = (self.document.form.clone(), wanted(self));
         self.remember();
+        let charts = self.history.past_mut().charts(None);
+        self.remember_charts(charts);
         if !to(&mut self.history, &mut self.document) {
             return;
         }
+        self.recall_charts();
         if self.document.chart != chart {
             self.follow_chart();
         } else if was_in_gesture && self.document.form == form {

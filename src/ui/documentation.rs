@@ -116,6 +116,17 @@ pub(in crate::ui) enum PageBlock {
     Text(String),
     /// Lines of code.
     Code(String),
+    /// Rows of a table, the head first, with the Markdown text of each cell.
+    Table(Vec<Vec<String>>),
+}
+
+impl PageBlock {
+    fn texts_mut(&mut self) -> Vec<&mut String> {
+        match self {
+            Self::Text(text) | Self::Code(text) => vec![text],
+            Self::Table(rows) => rows.iter_mut().flatten().collect(),
+        }
+    }
 }
 
 /// Page for the window, and the links to other pages.
@@ -189,6 +200,10 @@ impl BookPage {
                         None => {}
                     }
                 }
+                // Slanted letters reach into the space after them.
+                Event::End(TagEnd::Emphasis) if unlinked.is_none() && self.text[range.end..].starts_with(' ') => {
+                    edits.push((range.end..range.end, PageBlock::Text("\u{2009}".to_owned())));
+                }
                 Event::Start(Tag::CodeBlock(_)) => code = Some(String::new()),
                 Event::Text(words) | Event::Code(words) => {
                     [&mut unlinked, &mut code].into_iter().flatten().for_each(|text| text.push_str(&words));
@@ -201,9 +216,12 @@ impl BookPage {
             }
         }
         edits.sort_by_key(|(range, _)| range.start);
-        shown.blocks = blocks(self.text, edits);
-        for block in &mut shown.blocks {
-            let (PageBlock::Text(text) | PageBlock::Code(text)) = block;
+        let split = |block: PageBlock| match block {
+            PageBlock::Text(text) => with_tables_apart(&text),
+            other => vec![other],
+        };
+        shown.blocks = blocks(self.text, edits).into_iter().flat_map(split).collect();
+        for text in shown.blocks.iter_mut().flat_map(PageBlock::texts_mut) {
             for (character, otherwise) in WITHOUT_GLYPH {
                 *text = text.replace(character, otherwise);
             }
@@ -220,12 +238,30 @@ fn blocks(text: &str, edits: Vec<(Range<usize>, PageBlock)>) -> Vec<PageBlock> {
         end = range.end;
         match block {
             PageBlock::Text(words) => now.push_str(&words),
-            code @ PageBlock::Code(_) => blocks.extend([PageBlock::Text(std::mem::take(&mut now)), code]),
+            other => blocks.extend([PageBlock::Text(std::mem::take(&mut now)), other]),
         }
     }
     now.push_str(&text[end..]);
     blocks.push(PageBlock::Text(now));
     blocks
+}
+
+/// Text cut at its tables.
+fn with_tables_apart(text: &str) -> Vec<PageBlock> {
+    let (mut edits, mut rows) = (Vec::new(), Vec::new());
+    for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+        match event {
+            Event::Start(Tag::TableHead | Tag::TableRow) => rows.push(Vec::new()),
+            // A bar within a cell is written with a backslash before it.
+            Event::Start(Tag::TableCell) => {
+                let cell = text[range].trim_matches('|').trim().replace("\\|", "|");
+                rows.last_mut().into_iter().for_each(|row: &mut Vec<String>| row.push(cell.clone()));
+            }
+            Event::End(TagEnd::Table) => edits.push((range, PageBlock::Table(std::mem::take(&mut rows)))),
+            _ => {}
+        }
+    }
+    blocks(text, edits)
 }
 
 /// Anchor of a heading, as the book has it.
@@ -323,18 +359,41 @@ mod tests {
     }
 
     #[test]
+    fn tables_of_a_page_are_blocks_with_the_text_of_their_cells() {
+        let text = "Before\n\n| a | b |\n|---|---|\n| *x* | `1 \\| 2` |\n| | [y](window.md) |\n\nAfter\n";
+        let blocks = BookPage { path: "a.md", text }.shown().blocks;
+        let [PageBlock::Text(before), PageBlock::Table(rows), PageBlock::Text(after)] = blocks.as_slice() else {
+            panic!("{blocks:?}")
+        };
+        assert_eq!([before.trim(), after.trim()], ["Before", "After"]);
+        assert_eq!(*rows, [["a", "b"], ["*x*", "`1 | 2`"], ["", "[y](window.md)"]]);
+        let tables =
+            |page: &BookPage| page.shown().blocks.iter().filter(|block| matches!(block, PageBlock::Table(_))).count();
+        let is_even = |page: &BookPage| {
+            let has_columns = |block: &PageBlock| match block {
+                PageBlock::Table(rows) => rows.len() > 1 && rows.iter().all(|row| row.len() == rows[0].len()),
+                _ => true,
+            };
+            page.shown().blocks.iter().all(has_columns)
+        };
+        assert!(PAGES.iter().map(tables).sum::<usize>() > 20);
+        assert!(PAGES.iter().all(is_even));
+    }
+
+    #[test]
     fn every_character_of_the_pages_has_a_glyph() {
         use eframe::egui::{Context, FontId, RawInput};
         let context = Context::default();
         crate::ui::theme::install(&context);
         let mut missing = BTreeSet::new();
         let mut output = context.run_ui(RawInput::default(), |ui| {
-            for block in PAGES.iter().flat_map(|page| page.shown().blocks) {
-                let (text, font) = match block {
-                    PageBlock::Text(text) => (text, FontId::proportional(13.0)),
-                    PageBlock::Code(text) => (text, FontId::monospace(12.0)),
+            for mut block in PAGES.iter().flat_map(|page| page.shown().blocks) {
+                let font = match block {
+                    PageBlock::Code(_) => FontId::monospace(12.0),
+                    _ => FontId::proportional(13.0),
                 };
-                let others = text.chars().filter(|c| !c.is_ascii());
+                let texts = block.texts_mut();
+                let others = texts.iter().flat_map(|text| text.chars()).filter(|c| !c.is_ascii());
                 missing.extend(others.filter(|c| !ui.ctx().fonts_mut(|fonts| fonts.has_glyph(&font, *c))));
             }
         });

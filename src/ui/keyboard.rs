@@ -97,14 +97,9 @@ fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
 }
 
 /// Request of a key that starts a gesture on the selected charts, or shows one alone.
-const fn begin_key(key: Key) -> Option<PageRequest> {
-    Some(match key {
-        Key::G => PageRequest::Begin(GestureKind::Move),
-        Key::R => PageRequest::Begin(GestureKind::Turn),
-        Key::S => PageRequest::Begin(GestureKind::Scale),
-        Key::Enter => PageRequest::Open(None),
-        _ => return None,
-    })
+fn begin_key(key: Key) -> Option<PageRequest> {
+    let gesture = GestureKind::ALL.into_iter().find(|kind| kind.key() == key).map(PageRequest::Begin);
+    gesture.or_else(|| (key == Key::Enter).then_some(PageRequest::Open(None)))
 }
 
 /// Request of a key during a gesture on charts.
@@ -215,8 +210,8 @@ fn nudges(context: &egui::Context, editor: &Editor) -> Vec<Request> {
         || context.memory(egui::Memory::focused).is_some();
     let mut requests = Vec::new();
     let has_pins = editor.pins_selected().next().is_some() && !editor.shows_page();
-    let has_charts =
-        editor.shows_page() && !editor.plane.page.selected().is_empty() && editor.plane.page.gesture().is_none();
+    let is_free = editor.plane.page.gesture().is_none() && !editor.session.is_brushing();
+    let has_charts = editor.shows_page() && !editor.plane.page.selected().is_empty() && is_free;
     if !is_elsewhere && editor.tools.dragged().is_none() && (has_pins || has_charts) {
         let push = context.input_mut(take_push);
         if push != DVec2::ZERO {

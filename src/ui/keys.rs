@@ -101,6 +101,9 @@ pub const BINDINGS: &[Binding] = &[
 
 /// Keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty if it has none.
 pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
+    if let Request::Page(PageRequest::Begin(kind)) = request {
+        return kind.key().name().to_owned();
+    }
     let shortcut = KeyMap::of(context).shortcut_of(request);
     shortcut.map(|shortcut| shortcut_words(context, shortcut)).unwrap_or_default()
 }

@@ -211,6 +211,9 @@ fn visuals(theme: &Theme, base: Visuals) -> Visuals {
     visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, theme.separator);
     visuals.window_stroke = Stroke::new(1.0, theme.separator);
     let widgets = &mut visuals.widgets;
+    // The title of an open menu.
+    widgets.open.weak_bg_fill = theme.accent.gamma_multiply(0.28);
+    widgets.open.bg_fill = widgets.open.weak_bg_fill;
     for widget in [
         &mut widgets.noninteractive,
         &mut widgets.inactive,

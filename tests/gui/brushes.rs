@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use eframe::egui::{Key, Modifiers, Pos2, Vec2};
 use freebound::examples::Example;
-use freebound::session::PageStroke;
+use freebound::session::{Action, LockState, PageStroke};
 use freebound::ui::{Editor, Tool};
 use freebound::view::PlaneArrays;
 use freebound_core::bijective::BrushKind;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
 
-use crate::charts::with_sheets;
-use crate::harness::{Pill, Window};
+use crate::charts::{beside_each_other, until_laid_out, with_sheets};
+use crate::harness::{Pill, Window, sheet};
 use crate::page;
 use crate::presses::button;
 
@@ -221,10 +221,12 @@ fn a_chart_that_a_brush_moves_stops_before_another_unless_alt_is_held() {
         let mut window = page_window();
         window.click("Grab brush");
         let (from, to) = (page::middle(&window, 0), page::middle(&window, 1));
+        let before = on_page(&window, 0);
         for _ in 0..16 {
             window.key(Key::CloseBracket);
         }
-        window.begin_drag(from, from.lerp(to, 0.5), modifiers);
+        window.begin_drag(from, from.lerp(to, 0.005), modifiers);
+        page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|s| s.coordinates().is_some()));
         window.harness.hover_at(to);
         let is_there = |editor: &Editor| {
             let stroke = editor.session.page_stroke();
@@ -238,6 +240,7 @@ fn a_chart_that_a_brush_moves_stops_before_another_unless_alt_is_held() {
         page::until_proved(&mut window);
         let atlas = window.editor().session.newest_atlas().expect("a layout");
         assert_eq!(atlas.verdict.planar, !may_overlap);
+        assert_ne!(before, on_page(&window, 0), "the chart stops on its way");
     }
 }
 
@@ -295,5 +298,157 @@ fn vertices_of_turned_mirrored_and_locked_charts_follow_the_pointer() {
         let expected = glam::DVec2::new(by.x.into(), -f64::from(by.y)) / scale;
         assert!(most.distance(expected) < 0.25 * expected.length(), "{name}: {most} {expected}");
         assert_eq!(window.pill(), Pill::Proved, "{name}");
+        let is_locked = window.editor().session.lock_state(0) == LockState::Locked;
+        assert_eq!(is_locked, name == "locked", "{name}");
+        let area = signed_area(&window, &after);
+        assert_eq!(area < 0.0, name == "mirrored", "{name}: {area}");
+    }
+}
+
+/// Signed area of chart 0 at these coordinates.
+fn signed_area(window: &Window, at: &Embedding) -> f64 {
+    let page = window.editor().session.page().expect("a page");
+    let triangles = page.charts[0].mesh().mesh().real_triangles().iter();
+    triangles.map(|&[a, b, c]| (at[b] - at[a]).perp_dot(at[c] - at[a]) / 2.0).sum()
+}
+
+#[test]
+fn a_brushed_chart_with_a_hole_stays_where_it_lies_or_is_locked() {
+    let mut holed = sheet(6, 0.1);
+    let middle = VertexId::new(24);
+    holed.triangles.retain(|corners| !corners.contains(&middle));
+    let mesh = beside_each_other([holed, sheet(4, 0.1)]);
+    for locks in [false, true] {
+        let mut window = Window::with_mesh("holed.obj", &mesh);
+        until_laid_out(&mut window);
+        let chart = (0..2).find(|&chart| on_page(&window, chart).len() > 40).expect("the holed one");
+        let at = page::middle(&window, chart) + Vec2::new(0.0, 40.0);
+        window.click_at(at, Modifiers::NONE);
+        if locks {
+            window.key(Key::L);
+        }
+        page::until_proved(&mut window);
+        window.key(Key::B);
+        window.click("Grab brush");
+        for _ in 0..6 {
+            window.key(Key::OpenBracket);
+        }
+        let before = on_page(&window, chart);
+        window.drag(at, at + Vec2::new(5.0, 2.0), Modifiers::NONE);
+        page::until_proved(&mut window);
+        let after = on_page(&window, chart);
+        let stayed = before.iter().zip(after.iter()).filter(|(a, b)| a == b).count();
+        assert!(stayed < before.len() && stayed > 0, "{stayed} of {} stayed", before.len());
+        let is_locked = window.editor().session.lock_state(chart) == LockState::Locked;
+        assert_eq!(is_locked, locks);
+    }
+}
+
+#[test]
+fn a_stroke_goes_on_where_a_neighbour_keeps_it_back() {
+    let mut window = page_window();
+    window.click("Texels brush");
+    for _ in 0..4 {
+        window.key(Key::OpenBracket);
+    }
+    let (inside, other) = (page::middle(&window, 0), page::middle(&window, 1));
+    // The point of the outline that is nearest to another chart.
+    let aspect = window.editor().session.page().expect("a page").aspect;
+    let spots = on_page(&window, 0).iter().map(|uv| page::spot(&window, *uv * glam::DVec2::new(aspect, 1.0))).collect();
+    let nearest = |spots: Vec<Pos2>| spots.into_iter().min_by(|a, b| a.distance(other).total_cmp(&b.distance(other)));
+    let at = nearest(spots).expect("vertices");
+    window.begin_drag(at, at + Vec2::new(0.5, 0.0), Modifiers::NONE);
+    page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|stroke| stroke.kept_back().is_some()));
+    let kept = |window: &Window| window.editor().session.page_stroke().and_then(|stroke| stroke.coordinates()).cloned();
+    let before = kept(&window);
+    // In the inside, the brush moves no part of the outline.
+    let start = std::time::Instant::now();
+    while kept(&window) == before && start.elapsed() < std::time::Duration::from_secs(20) {
+        window.harness.hover_at(inside);
+        std::thread::sleep(std::time::Duration::from_millis(1));
+        window.step();
+    }
+    assert_ne!(kept(&window), before, "frames are accepted again");
+    window.end_drag(at);
+    page::until_proved(&mut window);
+    assert!(window.editor().session.newest_atlas().expect("a layout").verdict.planar);
+}
+
+#[test]
+fn edits_in_the_middle_of_a_stroke_drop_it_or_wait() {
+    let edits = [
+        ("undo", Modifiers::COMMAND, Key::Z),
+        ("redo", Modifiers::COMMAND | Modifiers::SHIFT, Key::Z),
+        ("arrow", Modifiers::NONE, Key::ArrowRight),
+    ];
+    for (name, modifiers, key) in edits {
+        let mut window = with_sheets();
+        let at = page::middle(&window, 0);
+        window.click_at(at, Modifiers::NONE);
+        window.key(Key::B);
+        window.click("Grab brush");
+        // An edit that redo can return to.
+        window.drag(at, at + Vec2::new(4.0, 0.0), Modifiers::NONE);
+        page::until_proved(&mut window);
+        window.press(Modifiers::COMMAND, Key::Z);
+        page::until_proved(&mut window);
+        let [before, other] = [0, 1].map(|chart| on_page(&window, chart));
+        window.begin_drag(at, at + Vec2::new(9.0, 0.0), Modifiers::NONE);
+        page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|s| s.coordinates().is_some()));
+        window.harness.key_press_modifiers(modifiers, key);
+        window.step();
+        assert_eq!(window.editor().session.is_brushing(), name == "arrow", "{name}");
+        window.end_drag(at + Vec2::new(9.0, 0.0));
+        page::until_proved(&mut window);
+        assert_eq!(on_page(&window, 1), other, "{name}");
+        assert_eq!(on_page(&window, 0) == before, name == "undo", "{name}");
+    }
+}
+
+#[test]
+fn a_stroke_on_a_chart_alone_ends_when_another_chart_is_shown() {
+    let mut window = with_sheets();
+    window.press(Modifiers::NONE, Key::Y);
+    window.key(Key::B);
+    window.click("Grab brush");
+    let before: Vec<_> = (0..3).map(|chart| on_page(&window, chart)).collect();
+    let from = middle(&window);
+    window.begin_drag(from, from + Vec2::new(10.0, 3.0), Modifiers::NONE);
+    window.key(Key::PageDown);
+    window.end_drag(from);
+    window.settle();
+    until_laid_out(&mut window);
+    for (chart, before) in before.iter().enumerate() {
+        assert_eq!(**before, *on_page(&window, chart), "chart {chart}");
+    }
+}
+
+#[test]
+fn undo_and_redo_of_a_stroke_restore_the_maps_of_a_chart_without_a_solve() {
+    let mut window = with_sheets();
+    let outcome = |window: &Window| Arc::clone(&window.editor().session.page().expect("a page").charts[1].outcome);
+    // A map that solving from scratch would not give: it continues from the map before its pins.
+    window.editor_mut().session.handle(Action::ShowChart(1));
+    window.settle();
+    window.editor_mut().session.handle(Action::Relax);
+    window.settle();
+    window.editor_mut().session.handle(Action::ShowChart(2));
+    window.settle();
+    page::until_proved(&mut window);
+    window.key(Key::B);
+    window.click("Grab brush");
+    let before = outcome(&window);
+    let at = page::middle(&window, 1);
+    window.drag(at, at + Vec2::new(6.0, 2.0), Modifiers::NONE);
+    page::until_proved(&mut window);
+    let shaped = outcome(&window);
+    assert!(!Arc::ptr_eq(&before, &shaped));
+    for _ in 0..2 {
+        window.press(Modifiers::COMMAND, Key::Z);
+        page::until_proved(&mut window);
+        assert!(Arc::ptr_eq(&before, &outcome(&window)), "undone");
+        window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        page::until_proved(&mut window);
+        assert!(Arc::ptr_eq(&shaped, &outcome(&window)), "done again");
     }
 }

@@ -15,9 +15,13 @@ use freebound_testkit::assert_message;
 
 /// Three sheets side by side, in increasing size.
 fn sheets() -> TriMesh {
+    beside_each_other([4, 6, 9].map(|rows| sheet(rows, 0.3)))
+}
+
+/// Parts side by side in one mesh.
+pub(crate) fn beside_each_other(parts: impl IntoIterator<Item = TriMesh>) -> TriMesh {
     let mut whole = TriMesh::default();
-    for (number, rows) in [4, 6, 9].into_iter().enumerate() {
-        let part = sheet(rows, 0.3);
+    for (number, part) in parts.into_iter().enumerate() {
         let offset = whole.positions.len();
         let aside = 30.0 * number as f64 * glam::DVec3::X;
         whole.positions.extend(part.positions.iter().map(|&at| at + aside));
@@ -104,7 +108,7 @@ fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
     window.press(Modifiers::NONE, Key::Enter);
     until_laid_out(&mut window);
     assert!((densities(&window)[2] / densities(&window)[0] - 2.5).abs() < 1e-9, "{:?}", densities(&window));
-    let density = format!("{:.4}", densities(&window)[2]);
+    let density = format!("{:.1} px per unit", densities(&window)[0]);
     assert!(window.shows(&density), "{density}: {:?}", window.words());
     window.press(Modifiers::COMMAND, Key::Z);
     until_laid_out(&mut window);

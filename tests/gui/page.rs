@@ -33,7 +33,7 @@ fn bounds(window: &Window, chart: usize) -> Bounds {
 }
 
 /// Point of the window at a point of the page's plane.
-fn spot(window: &Window, at: DVec2) -> Pos2 {
+pub(crate) fn spot(window: &Window, at: DVec2) -> Pos2 {
     let pane = window.editor().plane.page.pane;
     let [x, y] = pane.camera().expect("shown").pane_from_embedding(at, pane.size()).as_vec2().to_array();
     window.plane_view().min + egui::vec2(x, y)

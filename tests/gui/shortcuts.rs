@@ -33,6 +33,21 @@ fn pin(window: &mut Window, vertices: &[u32]) {
 }
 
 #[test]
+fn arrow_keys_lead_from_an_open_menu_to_the_others() {
+    let mut window = window();
+    let firsts = ["Open…", "Undo", "Shading of the mesh", "Take one step", "Documentation"];
+    let shown = |window: &Window| firsts.iter().position(|first| window.has_button(first));
+    window.press(Modifiers::ALT, Key::F);
+    assert_eq!(shown(&window), Some(0));
+    for place in [1, 2, 3, 4, 0] {
+        window.key(Key::ArrowRight);
+        assert_eq!(shown(&window), Some(place));
+    }
+    window.key(Key::ArrowLeft);
+    assert_eq!(shown(&window), Some(4));
+}
+
+#[test]
 fn no_key_is_bound_twice() {
     for (i, a) in BINDINGS.iter().enumerate() {
         for b in &BINDINGS[i + 1..] {

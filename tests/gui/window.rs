@@ -186,7 +186,14 @@ fn each_menu_has_its_entries() {
         (&["View", "Theme"], &["System", "Light", "Dark"]),
         (
             &["Solve"],
-            &["Take one step", "Start the run", "Play all steps", "Solve from scratch", "Cancel", "Method and weights"],
+            &[
+                "Take one step",
+                "Start the run",
+                "Play all steps",
+                "Solve from scratch",
+                "Stop the work",
+                "Method and weights",
+            ],
         ),
         (&["Help"], &["All keys"]),
     ];

@@ -7,19 +7,17 @@ use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
     Axis, BAKED, COPY_COMMAND, COPY_LAYOUT, CheckerRequest, CheckerStyle, EXPORTS, ExportOptions, FileDialogKind,
-    GestureKind, NO_LAYOUT_PICTURE, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, SelectBy, ShadingMode,
-    StepTarget, Tab, Tool,
+    GestureKind, NO_LAYOUT_PICTURE, NO_MAP, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, SelectBy,
+    ShadingMode, StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
 /// Reasons why entries are disabled.
 const NO_MESH: &str = "Open a mesh first";
 const NO_DISK: &str = "Open a mesh that can be flattened first";
-const NO_MAP: &str = "There is nothing to export yet: open a mesh";
 const NO_PINS: &str = "Place a pin first";
 const NO_SEAMS: &str = "There are no seams";
 const NO_CHART: &str = "Select charts of the page that are not locked first";
-const NO_PAGE: &str = "Show all charts on the page first";
 
 /// Entry that colours faces by a table, and its description.
 const COLOUR_BY_COLUMN: [&str; 2] =
@@ -262,7 +260,7 @@ fn page_menu(menu: &mut MenuBuilder<'_>) {
         menu.item(when(has_selected, NO_CHART), "Stack", PageRequest::Stack);
         menu.item(when(has_selected, NO_CHART), "Unstack", PageRequest::Unstack);
         menu.item(when(can_change_lock, NO_CHART), words, Request::ToggleLock);
-        menu.item(when(editor.shows_page(), NO_PAGE), "Pack the selected charts, or all", PageRequest::Pack);
+        menu.item(editor.pack_hindrance().map_or(ALWAYS, Err), "Pack the selected charts, or all", PageRequest::Pack);
     });
 }
 
@@ -284,7 +282,7 @@ fn solve_menu(menu: &mut MenuBuilder<'_>) {
     menu.item(when(has_previous || has_next, "There is only one step"), play, Request::TogglePlay);
     menu.separator();
     menu.item(when(editor.has_disk(), NO_DISK), "Solve from scratch", Action::Solve);
-    menu.item(when(session.busy().is_some(), "No work is running"), "Cancel", Action::Cancel);
+    menu.item(when(session.busy().is_some(), "No work is running"), "Stop the work", Action::Cancel);
     menu.separator();
     menu.item(ALWAYS, "Method and weights", Request::ShowTab(Tab::Method));
     let is_comparing = editor.plane.comparison.is_shown();

@@ -47,7 +47,8 @@ fn about(context: &egui::Context, is_open: &mut bool) {
 /// Line of a message: its age, text and remedy.
 fn line(LoggedMessage { time, message }: &LoggedMessage, now: SystemTime) -> String {
     let seconds = now.duration_since(*time).unwrap_or_default().as_secs();
-    let mut line = format!("{}:{:02} min ago: {}", seconds / 60, seconds % 60, sentence(&message.text));
+    let age = if seconds < 60 { format!("{seconds} s") } else { format!("{} min {} s", seconds / 60, seconds % 60) };
+    let mut line = format!("{age} ago: {}", sentence(&message.text));
     if let Some(remedy) = &message.remedy {
         write!(line, ". {}", sentence(remedy)).ok();
     }

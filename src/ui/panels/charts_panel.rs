@@ -269,7 +269,7 @@ fn packing_words(packing: &PackingSummary, asked: [u32; 2]) -> String {
     let [width, height] = picture;
     let doubled = if picture == asked { String::new() } else { format!("; doubled to {width} × {height} px") };
     let unmet = if packing.unmet_density().is_some() { "; the fixed density does not fit" } else { "" };
-    format!("{percent:.0} % covered{tiles}, {density:.4} pixels per unit of length{doubled}{unmet}")
+    format!("{percent:.0} % covered{tiles}, {} px per unit{doubled}{unmet}", five_digits(density))
 }
 
 /// Fields for the packing of charts. An edit applies when the drag or the typing ends.
@@ -422,7 +422,10 @@ fn arrange(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         let pack = Offer::new("Pack selected", tip, PageRequest::Pack);
         pack.when(selected > 0).show(ui, requests);
         let tip = "Pack all charts that are not locked";
-        Offer::new("Pack all", tip, PageRequest::PackAll).when(editor.session.has_placed_charts()).show(ui, requests);
+        let all = ui.add_enabled(editor.session.has_placed_charts(), egui::Button::new("Pack all").small());
+        all.on_hover_text(tip)
+            .on_disabled_hover_text("All charts are packed already")
+            .asks(PageRequest::PackAll, requests);
         density_of_selection(ui, editor, requests);
     });
 }
@@ -455,7 +458,8 @@ fn density_of_selection(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<R
     let Some(before) = found else { return };
     let kept = ui.scope_id().with(("density of the selection", first));
     let mut density: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
-    let value = DragValue::new(&mut density).range(DENSITIES).speed(before * 0.005).max_decimals(2).suffix(" px/unit");
+    let value =
+        DragValue::new(&mut density).range(DENSITIES).speed(before * 0.005).max_decimals(2).suffix(" px per unit");
     let field = ui.add(value).named(Role::SpinButton, "Density of the selected charts, pixels per unit of length");
     let field = field.on_hover_text("Scale each selected chart in place to this number of pixels per unit of length");
     if field.has_ended() {
@@ -493,7 +497,7 @@ fn size(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         let field = ui.add_enabled(!is_held, value).named(Role::SpinButton, "Size of the chart on the screen");
         let field = field.on_hover_text(tip).on_disabled_hover_text(tip);
         if let Some(density) = session.newest_atlas().and_then(|atlas| atlas.densities.get(chart)) {
-            remark(ui, format!("{density:.4} pixels per unit of length"));
+            remark(ui, format!("{} px per unit", five_digits(*density)));
         }
         if field.has_ended() {
             ui.data_mut(|data| data.remove::<f64>(kept));
@@ -513,8 +517,11 @@ fn rows_of(ui: &mut egui::Ui, editor: &Editor, rows: &[Row], bottom: f32, reques
     let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
     let lock = keys_of(ui.ctx(), &Request::ToggleLock);
     let shows_page = editor.shows_page();
-    let words =
-        if shows_page { "Click selects, double click shows a chart alone" } else { "Click a chart to work on it" };
+    let words = if shows_page {
+        "Worst first. Click selects, double click shows alone"
+    } else {
+        "Worst first. Click to work on a chart"
+    };
     remark(ui, format!("{words} ({} and {}), {lock} locks", keys[0], keys[1]));
     let marked = editor.charts_to_work_on();
     let height = (bottom - ui.cursor().top()).max(LEAST_ROWS * ROW);

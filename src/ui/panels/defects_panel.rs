@@ -117,7 +117,9 @@ fn counts(ui: &mut egui::Ui, editor: &Editor, verdict: &Verdict, requests: &mut 
         ui.horizontal(|ui| {
             let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
             ui.painter().rect_filled(square, 1.0, kind.colour(theme_of(ui)));
+            // Words begin at the same place, with a button around them or not.
             let Some(next) = next else {
+                ui.add_space(ui.spacing().button_padding.x);
                 ui.label(words);
                 return;
             };

@@ -99,7 +99,7 @@ pub(super) fn notes(ui: &mut egui::Ui, model: &Model) {
     }
     if disk.mollification() > 0.0 {
         let longer = disk.mollification() * disk.unit();
-        notes.push(format!("zero-area faces, edge lengths increased by {longer:.1e}"));
+        notes.push(format!("it has faces without area, so all edges are measured {longer:.1e} longer"));
     }
     for note in notes {
         ui.weak(format!("Mesh: {note}"));

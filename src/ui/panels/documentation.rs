@@ -1,7 +1,7 @@
 //! Documentation window: the pages of the book at the right; their list, or what a search found, at the left.
 
-use eframe::egui::{self, Align2, FontFamily, FontId, Id, Role, ScrollArea, TextStyle};
-use egui_commonmark::CommonMarkViewer;
+use eframe::egui::{self, Align, Align2, FontFamily, FontId, Id, Layout, Role, ScrollArea, TextStyle};
+use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
 use crate::ui::documentation::{BookAnchor, PAGES, PageBlock, TITLES, find_sections};
 use crate::ui::state::DocumentationView;
@@ -16,6 +16,10 @@ const SIZE: [f32; 2] = [920.0, 640.0];
 
 /// Share of the window for the list, and its limits, points.
 const LIST: (f32, [f32; 2]) = (0.28, [150.0, 240.0]);
+
+/// Gap between the columns of a table, and width of a letter, points.
+const COLUMN_GAP: f32 = 12.0;
+const LETTER: f32 = 6.8;
 
 /// Size of the largest headings, points.
 const HEADING: f32 = 21.0;
@@ -92,7 +96,7 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
         Some(BookAnchor { heading: None, .. }) => area = area.vertical_scroll_offset(0.0),
         None => {}
     }
-    let mut clicked = None;
+    let mut clicked: Option<BookAnchor> = None;
     area.show(ui, |ui| {
         // A jump to a section must not race through the page.
         ui.style_mut().scroll_animation = egui::style::ScrollAnimation::none();
@@ -100,25 +104,79 @@ fn page(ui: &mut egui::Ui, view: &mut DocumentationView) {
         ui.visuals_mut().override_text_color = None;
         ui.visuals_mut().widgets.noninteractive.fg_stroke.color = theme_of(ui).text;
         ui.style_mut().text_styles.insert(TextStyle::Heading, FontId::new(HEADING, FontFamily::Proportional));
+        let mut written = Written { links: &view.shown.links, cache: &mut view.cache, clicked: None };
         for (number, block) in view.shown.blocks.iter().enumerate() {
             match block {
-                PageBlock::Text(text) => {
-                    // Each block numbers its tables on its own.
-                    ui.push_id(id.with(number), |ui| {
-                        let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
-                        viewer.show_with_id(id.with(number), ui, &mut view.cache, text);
-                    });
-                    // The next block resets the links.
-                    let is_clicked = |(link, _): &&(String, BookAnchor)| view.cache.get_link_hook(link) == Some(true);
-                    clicked = clicked.or(view.shown.links.iter().find(is_clicked));
-                }
+                PageBlock::Text(text) => written.text(ui, id.with(number), text),
                 PageBlock::Code(lines) => code(ui, lines),
+                PageBlock::Table(rows) => table(ui, id.with(number), rows, &mut written),
             }
         }
+        clicked = written.clicked;
     });
-    if let Some((_, goal)) = clicked.cloned() {
+    if let Some(goal) = clicked {
         view.go_to(goal);
     }
+}
+
+/// Writer of Markdown texts, with the link that was clicked.
+struct Written<'a> {
+    links: &'a [(String, BookAnchor)],
+    cache: &'a mut CommonMarkCache,
+    clicked: Option<BookAnchor>,
+}
+
+impl Written<'_> {
+    fn text(&mut self, ui: &mut egui::Ui, id: Id, text: &str) {
+        ui.push_id(id, |ui| {
+            let viewer = CommonMarkViewer::new().enable_scroll_to_heading(true);
+            viewer.show_with_id(id, ui, self.cache, text);
+        });
+        // The next text resets the links.
+        let is_clicked = |(link, _): &&(String, BookAnchor)| self.cache.get_link_hook(link) == Some(true);
+        let clicked = self.links.iter().find(is_clicked).map(|(_, goal)| goal.clone());
+        self.clicked = clicked.or(self.clicked.take());
+    }
+}
+
+/// Table with columns that share the width, and cells that wrap.
+fn table(ui: &mut egui::Ui, id: Id, rows: &[Vec<String>], written: &mut Written<'_>) {
+    let widths = column_widths(rows, ui.available_width());
+    for (number, row) in rows.iter().enumerate() {
+        let fill = if number % 2 == 1 { ui.visuals().faint_bg_color } else { egui::Color32::TRANSPARENT };
+        egui::Frame::new().fill(fill).inner_margin(egui::Margin::symmetric(0, 3)).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = COLUMN_GAP;
+                for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
+                    let head = format!("**{cell}**");
+                    let text = if number == 0 && !cell.is_empty() { &head } else { cell };
+                    ui.allocate_ui_with_layout(egui::vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
+                        ui.set_width(width);
+                        written.text(ui, id.with((number, column)), text);
+                    });
+                }
+            });
+        });
+    }
+    ui.add_space(8.0);
+}
+
+/// Widths of the columns of a table: as wide as their texts, or less for the widest ones if there is too little room.
+fn column_widths(rows: &[Vec<String>], room: f32) -> Vec<f32> {
+    let count = rows.first().map_or(0, Vec::len);
+    let of_column = |column: usize| rows.iter().filter_map(move |row| row.get(column));
+    let longest = |column: usize| of_column(column).map(|cell| cell.chars().count()).max().unwrap_or(0);
+    let wanted: Vec<f32> = (0..count).map(|column| LETTER * longest(column) as f32 + COLUMN_GAP).collect();
+    let mut left = room - COLUMN_GAP * count.saturating_sub(1) as f32;
+    let mut widths = vec![0.0; count];
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&a, &b| wanted[a].total_cmp(&wanted[b]));
+    for (place, column) in order.into_iter().enumerate() {
+        // Narrow columns come first. What they do not need goes to the others.
+        widths[column] = wanted[column].min(left / (count - place) as f32);
+        left -= widths[column];
+    }
+    widths
 }
 
 /// Lines of code, which can be selected and copied.

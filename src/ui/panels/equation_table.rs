@@ -86,7 +86,7 @@ fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str
 fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests: &mut Vec<Request>) {
     let count = editor.mesh_scene().map_or(0, |scene| scene.mesh().vertex_count());
     let theme = theme_of(ui);
-    egui::Grid::new("equation").num_columns(4).spacing([8.0, 2.0]).striped(true).show(ui, |ui| {
+    egui::Grid::new("equation").num_columns(4).spacing([4.0, 2.0]).striped(true).show(ui, |ui| {
         let heads = [
             ("Neighbour", "In counter-clockwise order. Click to select"),
             ("k", "Weight, not normalised (the paper's λ); unit: length to the power p − 1"),

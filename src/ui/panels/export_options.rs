@@ -3,7 +3,7 @@
 use eframe::egui::{self, Align2, DragValue, Grid, Role};
 
 use crate::ui::editor::BakeChoice;
-use crate::ui::state::{ExportOptions, FileDialogKind, NO_LAYOUT_PICTURE};
+use crate::ui::state::{ExportOptions, FileDialogKind, NO_LAYOUT_PICTURE, NO_MAP};
 use crate::ui::{Control, Editor, Request, accented, list, option_list, theme_of};
 use freebound_core::geom::Picture;
 use freebound_io::PatternOptions;
@@ -56,7 +56,7 @@ pub(super) fn export_options(context: &egui::Context, editor: &mut Editor, reque
                 ExportOptions::Pattern => "PDF, SVG or DXF, by the end of the name",
                 ExportOptions::Baked => "A PNG picture",
             };
-            let lacks = if solved { NO_LAYOUT_PICTURE } else { "There is nothing to export yet: open a mesh" };
+            let lacks = if solved { NO_LAYOUT_PICTURE } else { NO_MAP };
             export.on_hover_text(tip).on_disabled_hover_text(lacks).asks(Request::Ask(dialog), requests);
             ui.button("Cancel").asks(Request::ToggleOptions(shown), requests);
         });

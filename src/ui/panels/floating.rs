@@ -7,7 +7,7 @@ use std::sync::mpsc::sync_channel;
 use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
 use crate::ui::editor::layout::GoTo;
-use crate::ui::state::{BAKED, COPY_COMMAND, EXPORTS, ExportOptions, PATTERN};
+use crate::ui::state::{BAKED, COPY_COMMAND, EXPORTS, ExportOptions, NO_LAYOUT_PICTURE, NO_MAP, PATTERN};
 use crate::ui::timeline::enlarged_curve;
 use crate::ui::{Control, Editor, Element, Pane, Request};
 use freebound_core::geom::Picture;
@@ -70,7 +70,7 @@ fn go_to_window(
 const ONE_COLUMN: f32 = 600.0;
 
 fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    let solved = editor.session.outcome().is_some();
+    let (solved, can_bake) = (editor.session.outcome().is_some(), editor.session.can_bake());
     let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).auto_sized();
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let columns = if context.content_rect().height() < ONE_COLUMN { 2 } else { 1 };
@@ -82,15 +82,17 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
             ];
             let files = EXPORTS.into_iter().map(|(kind, words, about)| (Request::Ask(kind), [words, about]));
             for (place, (request, [words, about])) in files.chain(commands).enumerate() {
-                let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 22.0)));
-                button.on_hover_text(about).asks(request, requests);
+                let lacks = request == Request::ToggleOptions(ExportOptions::Baked) && !can_bake;
+                let button = egui::Button::new(words).min_size(egui::vec2(250.0, 22.0));
+                let button = ui.add_enabled(solved && !lacks, button).on_hover_text(about);
+                button.on_disabled_hover_text(if lacks { NO_LAYOUT_PICTURE } else { NO_MAP }).asks(request, requests);
                 if place % columns + 1 == columns {
                     ui.end_row();
                 }
             }
         });
         if !solved {
-            ui.weak("There is nothing to export yet: open a mesh.");
+            ui.weak(format!("{NO_MAP}."));
         }
     });
 }

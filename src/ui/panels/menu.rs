@@ -23,6 +23,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
                     ui.menu_button(*title, |ui| nodes_ui(ui, commands::menu(editor, place), requests)).response
                 })
                 .collect();
+            let asked = asked.or_else(|| menu_beside(ui.ctx(), &responses));
             if let Some(response) = asked.and_then(|place| responses.get(place)) {
                 // Focus the title of the menu, so that the arrow keys lead into the menu.
                 response.request_focus();
@@ -32,6 +33,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
             responses.last().map_or(bar.left(), |last| last.rect.right())
         });
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(4.0);
             let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
             panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
             export_button(ui, editor, requests);
@@ -42,6 +44,19 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
         });
         title_between(ui, bar, menus.inner..=right.inner, &title(editor));
     });
+}
+
+/// Menu that the arrow keys lead to from an open menu.
+fn menu_beside(context: &egui::Context, responses: &[egui::Response]) -> Option<usize> {
+    let is_open =
+        |response: &egui::Response| egui::Popup::is_id_open(context, egui::Popup::default_response_id(response));
+    let open = responses.iter().position(is_open)?;
+    let by = context.input_mut(|input| {
+        let mut count = |key| input.count_and_consume_key(egui::Modifiers::NONE, key).cast_signed();
+        count(egui::Key::ArrowRight) - count(egui::Key::ArrowLeft)
+    });
+    let count = responses.len().cast_signed();
+    (by != 0).then(|| (open.cast_signed() + by).rem_euclid(count).cast_unsigned())
 }
 
 /// Button that writes the mesh with its texture coordinates, in the format of its file. Hidden in a narrow window.
@@ -129,8 +144,11 @@ fn title(editor: &Editor) -> String {
         let counts = [charts.count(), polygons.positions.len(), polygons.face_count()].map(grouped);
         return format!("{name} · {} charts · {} v · {} f", counts[0], counts[1], counts[2]);
     }
-    let counts = [model.vertex_count(), model.mesh().real_face_count()].map(grouped);
-    let chart = editor.session.chart_on_screen().map(|chart| format!(" · chart {chart}")).unwrap_or_default();
+    // Faces are those of the file in every title and list: polygons, as they are written.
+    let shown = model.prepared.chart.as_ref();
+    let chart = shown.map(|of| format!(" · chart {}", of.number)).unwrap_or_default();
+    let faces = shown.map_or(model.source.polygons.face_count(), |of| of.charts.faces(of.number).len());
+    let counts = [model.vertex_count(), faces].map(grouped);
     format!("{name}{chart} · {} v · {} f", counts[0], counts[1])
 }
 

@@ -101,7 +101,7 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
         let button = ui.add_enabled(editor.session.can_relax(), egui::Button::new("Relax"));
         button.on_hover_text(&tip).on_disabled_hover_text(tip).asks(relax, requests);
         if busy && editor.busy_for_long().is_some() {
-            ui.button("Cancel").asks(Action::Cancel, requests);
+            ui.button("Stop").on_hover_text("Stop the work in the background").asks(Action::Cancel, requests);
         }
     });
     if editor.session.is_continued() {

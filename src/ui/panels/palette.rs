@@ -49,7 +49,11 @@ pub(super) fn palette(context: &egui::Context, editor: &mut Editor, requests: &m
             false if pressed.steps != 0 => Scroll::ToSelected,
             false => Scroll::Free,
         };
-        rows(ui, &found, palette.row, scroll)
+        let clicked = rows(ui, &found, palette.row, scroll);
+        let reason = found.get(palette.row).and_then(|command| command.gate.err());
+        let words = reason.map_or_else(String::new, |reason| format!("Not now: {reason}"));
+        ui.add(egui::Label::new(RichText::new(words).color(theme_of(ui).weak_text)).wrap());
+        clicked
     });
     let chosen = modal.inner.or_else(|| pressed.enters.then_some(palette.row));
     let chosen = chosen.and_then(|row| found.get(row)).filter(|command| command.gate.is_ok());
@@ -137,9 +141,7 @@ fn row_ui(ui: &mut egui::Ui, command: &MenuCommand, is_selected: bool) -> bool {
     let name_colour = if is_enabled { theme.text } else { theme.weak_text.gamma_multiply(0.6) };
     let name = text(&command.words, name_colour, keys_left - place.left() - 12.0);
     let name_right = place.left() + name.size().x;
-    let beside: Vec<&str> = [&*command.path, command.gate.err().unwrap_or_default()].into();
-    let beside = beside.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" · ");
-    let beside = text(&beside, theme.weak_text.gamma_multiply(0.8), keys_left - name_right - 24.0);
+    let beside = text(&command.path, theme.weak_text, keys_left - name_right - 24.0);
     for (galley, left) in [(keys_text, keys_left), (name, place.left()), (beside, name_right + 12.0)] {
         let top = rect.center().y - galley.size().y / 2.0;
         ui.painter().galley(egui::pos2(left, top), galley, theme.text);

@@ -10,9 +10,11 @@ use crate::ui::{Control, Request};
 use freebound_core::mesh::{Fault, PartFaces};
 use freebound_core::pipeline::Surface;
 
-/// Height of a row, and greatest height of the list, points.
+/// Height of a row, points.
 const ROW: f32 = 22.0;
-const LIST: f32 = 154.0;
+
+/// Greatest share of the panel's free height that the list takes, and its least height in rows.
+const LIST: (f32, f32) = (0.6, 4.0);
 
 /// Shows the parts if there are several, or some are left out.
 pub(super) fn parts(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
@@ -24,7 +26,12 @@ pub(super) fn parts(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Req
     }
     egui::CollapsingHeader::new("Parts").default_open(true).show(ui, |ui| {
         let rows = kept.len() + left_out.len();
-        egui::ScrollArea::vertical().id_salt("parts").max_height(LIST).show_rows(ui, ROW, rows, |ui, range| {
+        let (share, least) = LIST;
+        let gap = ui.spacing().item_spacing.y;
+        // Whole rows: a row that is cut looks like the last one.
+        let in_sight = (share * ui.available_height() / (ROW + gap)).floor().max(least);
+        let height = in_sight * (ROW + gap) - gap;
+        egui::ScrollArea::vertical().id_salt("parts").max_height(height).show_rows(ui, ROW, rows, |ui, range| {
             for row in range {
                 match kept.get(row) {
                     Some(&part) => kept_row(ui, part, &kept, left_out, requests),
@@ -51,22 +58,24 @@ fn kept_row(
     let PartFaces { first_face, count } = part;
     let others = || kept.iter().map(|other| other.first_face).filter(move |&other| other != first_face);
     ui.horizontal(|ui| {
-        let words = format!("Face {first_face}, {} f", grouped(count));
+        let words = format!("Part of face {first_face}: {} f", grouped(count));
         let field = ui.add_enabled(kept.len() > 1, egui::Checkbox::new(&mut true, words));
         let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
         let tip = "Ticked parts are flattened. Other parts stay unchanged in the file";
         let without = left_out.iter().copied().chain([first_face]).collect();
         field.on_hover_text(tip).asks(Action::LeaveOut(without), requests);
         if kept.len() > 1 {
-            let button = ui.small_button("Only this").on_hover_text("Leave out all other parts");
-            let button = button.named(Role::Button, &format!("Only the part of face {first_face}"));
-            button.asks(Action::LeaveOut(left_out.iter().copied().chain(others()).collect()), requests);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let button = ui.small_button("Only this").on_hover_text("Leave out all other parts");
+                let button = button.named(Role::Button, &format!("Only the part of face {first_face}"));
+                button.asks(Action::LeaveOut(left_out.iter().copied().chain(others()).collect()), requests);
+            });
         }
     });
 }
 
 fn left_out_row(ui: &mut egui::Ui, first_face: u32, left_out: &BTreeSet<u32>, requests: &mut Vec<Request>) {
-    let field = ui.add(egui::Checkbox::new(&mut false, format!("Face {first_face}, left out")));
+    let field = ui.add(egui::Checkbox::new(&mut false, format!("Part of face {first_face}: left out")));
     let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
     let with = left_out.iter().copied().filter(|&other| other != first_face).collect();
     field.on_hover_text("Flatten this part, too").asks(Action::LeaveOut(with), requests);

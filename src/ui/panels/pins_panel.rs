@@ -47,7 +47,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
         return;
     }
     if document.targets.is_empty() {
-        no_pins(ui);
+        no_pins(ui, editor.shows_page());
         read_more(ui, "How to place pins", "window.md#pins", requests);
     } else {
         table(ui, editor, requests);
@@ -64,12 +64,17 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
     });
 }
 
-fn no_pins(ui: &mut egui::Ui) {
+fn no_pins(ui: &mut egui::Ui, is_on_page: bool) {
     let [fix, constrain] = [Tool::Fix, Tool::Constrain].map(|tool| keys_of(ui.ctx(), &Request::SetTool(tool)));
+    let gauge = if is_on_page {
+        "A tool for pins shows one chart alone."
+    } else {
+        "The hollow squares are gauge pins: they only fix position, rotation and size. Drag one to make it your own."
+    };
     ui.label(format!(
-        "No pins yet. The hollow squares are gauge pins: they only fix position, rotation and size.\n\nConstrain \
+        "No pins yet. {gauge}\n\nConstrain \
          ({constrain}): click a vertex, then its position on the picture. Fix ({fix}): pin vertices at their current \
-         positions, then drag them. Drag a gauge pin to make it your own."
+         positions, then drag them."
     ));
 }
 

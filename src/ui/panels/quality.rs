@@ -124,7 +124,8 @@ pub(super) fn quality(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
     let Some(quality) = Quality::of(editor).filter(|_| editor.busy_for_long().is_none()) else { return };
     let (grade, number) = (quality.grade(), short(quality.energy));
     let is_roomy = ui.ctx().content_rect().width() >= ROOMY;
-    let words = if is_roomy { format!("{} · energy {number}", grade.title()) } else { number };
+    let words =
+        if is_roomy { format!("{} · energy {number}", grade.title()) } else { format!("{} {number}", grade.title()) };
     let theme = theme_of(ui);
     let colour = grade.sign().colour(theme);
     let text = egui::WidgetText::from(RichText::new(&words).color(colour));

@@ -76,9 +76,9 @@ fn slider(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
 pub(super) fn progress_words(search: &SeamSearch) -> String {
     let SeamSearch { done_count, part_count, relative_length, energy, .. } = search;
     match part_count {
-        0 => "finding short seams…".to_owned(),
-        1 => format!("seams {relative_length:.2} √area, energy {energy:.2}…"),
-        _ => format!("seams {relative_length:.2} √area, {done_count} of {part_count} parts…"),
+        0 => "Finding short seams…".to_owned(),
+        1 => format!("Finding short seams… energy {energy:.2}, length {relative_length:.2} √area"),
+        _ => format!("Finding short seams… {done_count} of {part_count} parts, length {relative_length:.2} √area"),
     }
 }
 

@@ -32,6 +32,7 @@ fn with_keys(context: &egui::Context, hint: &str) -> String {
         (["Press ", "Space", " "], Request::Do(Action::Step)),
         (["press ", "Ctrl+O", "."], Request::Ask(FileDialogKind::Open)),
         (["", "L", " locks"], Request::ToggleLock),
+        (["", "L", " unlocks"], Request::ToggleLock),
         (["", "F", " frames"], Request::Frame),
     ];
     usual.iter().fold(hint.to_owned(), |hint, (keys, request)| with_keys_set(context, &hint, *keys, request))
@@ -55,6 +56,9 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         Tool::Select if editor.shows_page() && editor.plane.page.selected().is_empty() => {
             "Click a chart to select it; Ctrl + drag selects a box. Drag a chart to move it. Double click shows it alone."
         }
+        Tool::Select if editor.shows_page() && editor.movable_charts().is_empty() => {
+            "Locks or pins hold the selected charts. L unlocks, F frames. Shift + click adds."
+        }
         Tool::Select if editor.shows_page() => {
             "Drag to move the selected charts; G moves, R turns, S scales them. L locks, F frames. Shift + click adds."
         }
@@ -66,6 +70,9 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         }
         Tool::Select if editor.pins_selected().next().is_some() => {
             "Drag a selected pin to move them all. Arrows move by a pixel (Shift: ten). Delete frees them."
+        }
+        Tool::Brush if editor.shows_page() => {
+            "Drag over a chart. [ and ] change the size, Ctrl inverts pinch and texels. Alt lets charts overlap. Esc ends."
         }
         Tool::Brush => {
             "Drag over the map. [ and ] change the size, Ctrl inverts pinch and texels. The right button pans. Esc ends."

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use eframe::egui::{self, Align2, Sense, Vec2};
+use eframe::egui::{self, Align2, Rect, Sense, Vec2};
 
 use crate::session::{Action, Message, Severity};
 use crate::ui::icons::{self, Sign};
@@ -38,8 +38,11 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     let shown = if shown.id == message.id { shown } else { begun };
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("toast")).order(egui::Order::Foreground).movable(false);
-    let area = area.anchor(Align2::CENTER_BOTTOM, [0.0, -(BOTTOM_HEIGHT + strip + GAP)]);
-    let area = area.show(context, |ui| contents(ui, &message, requests));
+    let panes = panes(context, editor);
+    let bottom = context.content_rect().bottom() - (BOTTOM_HEIGHT + strip + GAP);
+    let area = area.pivot(Align2::CENTER_BOTTOM).fixed_pos(egui::pos2(panes.center().x, bottom));
+    let width = WIDTH.min(panes.width() - 40.0);
+    let area = area.show(context, |ui| contents(ui, &message, width, requests));
     let since = if area.response.contains_pointer() || area.inner { now } else { shown.since };
     editor.layout.toast = Some(Toast { since, ..shown });
     let left = since + SECONDS - now;
@@ -50,12 +53,19 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     }
 }
 
+/// Place of both panes. Default: the window.
+fn panes(context: &egui::Context, editor: &Editor) -> Rect {
+    let plane = editor.plane.pane.rect().or(editor.plane.page.pane.rect());
+    let panes = editor.mesh.pane.rect().into_iter().chain(plane);
+    panes.reduce(Rect::union).unwrap_or_else(|| context.content_rect())
+}
+
 /// Text and buttons of the message. Returns true if a button has the focus.
-fn contents(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) -> bool {
+fn contents(ui: &mut egui::Ui, message: &Message, width: f32, requests: &mut Vec<Request>) -> bool {
     let theme = theme_of(ui);
     let frame = egui::Frame::popup(ui.style()).fill(theme.panel.lerp_to_gamma(theme.planar, 0.14)).inner_margin(10);
     let row = |ui: &mut egui::Ui| {
-        ui.set_max_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
+        ui.set_max_width(width);
         let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
         icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), Sign::Good, theme);
         let words_and_buttons = |ui: &mut egui::Ui| {

@@ -78,7 +78,7 @@ fn chart_tools(ui: &mut egui::Ui, editor: &Editor, has_names: bool, requests: &m
         name: "Pack",
         about: "Pack the selected charts around the others, or all if none is selected",
         is_on: None,
-        hindrance: None,
+        hindrance: editor.pack_hindrance(),
         request: PageRequest::Pack.into(),
     };
     show(ui, button, has_names, &icons::pack, requests);

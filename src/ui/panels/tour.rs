@@ -1,7 +1,7 @@
-//! Card of the guided tour, over the lower left corner of the panes. Each card asks for one action, and says when it was
+//! Card of the guided tour, over the lower left corner of a pane. Each card asks for one action, and says when it was
 //! done.
 
-use eframe::egui::{self, Align2, RichText};
+use eframe::egui::{self, Align2, Rect, RichText};
 
 use crate::session::Action;
 use crate::ui::state::{Tour, TourCard, TourStart};
@@ -14,8 +14,8 @@ const WIDTH: f32 = 300.0;
 /// Gap between the card and the edges of the panes, points.
 const GAP: f32 = 12.0;
 
-/// Width of the tool bar, points.
-const TOOL_BAR: f32 = 44.0;
+/// Least width of a card, points.
+const LEAST_WIDTH: f32 = 200.0;
 
 /// Answer to a card.
 enum Answer {
@@ -37,12 +37,26 @@ pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
     }
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("tour")).order(egui::Order::Foreground).movable(false);
-    let area = area.anchor(Align2::LEFT_BOTTOM, [TOOL_BAR + GAP, -(BOTTOM_HEIGHT + strip + GAP)]);
-    editor.layout.tour = match area.show(context, |ui| card(ui, &tour)).inner {
+    let pane = pane_beside(context, editor, tour.card());
+    let bottom = context.content_rect().bottom() - (BOTTOM_HEIGHT + strip + GAP);
+    let area = area.pivot(Align2::LEFT_BOTTOM).fixed_pos(egui::pos2(pane.left() + GAP, bottom));
+    // Inner margins of the card are 12 points.
+    let width = (pane.width() - 2.0 * GAP - 24.0).clamp(LEAST_WIDTH, WIDTH);
+    editor.layout.tour = match area.show(context, |ui| card(ui, &tour, width)).inner {
         Some(Answer::Next) => tour.next(),
         Some(Answer::End) => None,
         None => Some(tour),
     };
+}
+
+/// Pane that a card covers a corner of: not the mesh if the card asks to turn or to pin it.
+fn pane_beside(context: &egui::Context, editor: &Editor, card: TourCard) -> Rect {
+    let plane = editor.plane.pane.rect().or(editor.plane.page.pane.rect());
+    let [first, second] = match card {
+        TourCard::Look | TourCard::Pin => [plane, editor.mesh.pane.rect()],
+        _ => [editor.mesh.pane.rect(), plane],
+    };
+    first.or(second).unwrap_or_else(|| context.content_rect())
 }
 
 fn state(editor: &Editor, mesh: u64) -> TourStart {
@@ -84,12 +98,12 @@ fn with_keys(context: &egui::Context, card: TourCard, text: &str) -> String {
     with_keys_set(context, text, ["Press ", usual, ""], &request)
 }
 
-fn card(ui: &mut egui::Ui, tour: &Tour) -> Option<Answer> {
+fn card(ui: &mut egui::Ui, tour: &Tour, width: f32) -> Option<Answer> {
     let theme = theme_of(ui);
     let [title, text] = tour.card().words();
     let mut answer = None;
     egui::Frame::popup(ui.style()).fill(theme.panel).inner_margin(12).show(ui, |ui| {
-        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - TOOL_BAR - 3.0 * GAP));
+        ui.set_width(width);
         ui.label(RichText::new(format!("Tour {} of {}", tour.place + 1, TourCard::ALL.len())).color(theme.weak_text));
         ui.strong(title);
         ui.label(with_keys(ui.ctx(), tour.card(), text));

@@ -134,7 +134,7 @@ fn of_page(editor: &Editor) -> Option<Pill> {
     let moved = stroke.and_then(PageStroke::verdict).or_else(|| Some(&state?.accepted.as_ref()?.verdict));
     let count = counted(page.charts.len(), "chart", "charts");
     if let Some([a, b]) = moved.and_then(|moved| moved.overlapping.first()) {
-        return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Move them apart, or press Esc"));
+        return Some(Pill::new(Sign::Bad, format!("Charts {a} and {b} overlap"), "Bring them apart, or press Esc"));
     }
     if let Some(chart) = session.failed_chart().filter(|_| !session.can_move_charts()) {
         let tip = "Click to open the list of charts";
@@ -144,7 +144,7 @@ fn of_page(editor: &Editor) -> Option<Pill> {
         return Some(Pill::new(Sign::Working, "laying out…", "The charts are being solved or packed"));
     }
     if moved.is_some_and(|moved| !moved.is_planar()) {
-        return Some(Pill::new(Sign::Bad, "A chart folds", "Scale it less, or press Esc"));
+        return Some(Pill::new(Sign::Bad, "A chart folds", "Go back a little, or press Esc"));
     }
     let tip = "Exact arithmetic shows that no two faces of any charts overlap";
     Some(match (page.is_planar, kept_back_words(session)) {

@@ -106,9 +106,10 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, request
     if messages.is_empty() {
         return;
     }
-    if messages.len() > 1 {
-        ui.horizontal(|ui| {
-            ui.add_space(8.0);
+    let groups = grouped(&messages);
+    // The messages of one group are dismissed below it.
+    if groups.len() > 1 {
+        on_ground(ui, |ui| {
             let words = format!("Dismiss all {}", messages.len());
             if ui.small_button(words).on_hover_text("Dismiss all messages of this pane").clicked() {
                 requests.extend(messages.iter().map(|message| Action::Dismiss(message.id).into()));
@@ -117,10 +118,17 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: MessagePlace, request
     }
     let limit = ui.available_height() / 2.0;
     egui::ScrollArea::vertical().id_salt(("messages", place == MessagePlace::Mesh)).max_height(limit).show(ui, |ui| {
-        for group in grouped(&messages) {
-            group_bars(ui, editor, &group, requests);
+        for group in &groups {
+            group_bars(ui, editor, group, requests);
         }
     });
+}
+
+/// Row of buttons over a pane, on the ground of a panel.
+fn on_ground(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    let frame =
+        egui::Frame::new().fill(theme_of(ui).panel).corner_radius(4).inner_margin(egui::Margin::symmetric(8, 4));
+    frame.outer_margin(egui::Margin::symmetric(4, 2)).show(ui, |ui| ui.horizontal_wrapped(add));
 }
 
 /// Messages in groups, by the file at fault. The group with the newest message comes first.
@@ -144,8 +152,7 @@ fn group_bars(ui: &mut egui::Ui, editor: &Editor, group: &[&Message], requests: 
     let id = ui.scope_id().with(("unfolded", file));
     let is_open = ui.data(|data| data.get_temp(id).unwrap_or(false));
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    ui.horizontal(|ui| {
-        ui.add_space(28.0);
+    on_ground(ui, |ui| {
         let words = counted(others.len(), "more problem", "more problems");
         let words = format!("{} {words} of {name}", if is_open { "Hide" } else { "Show" });
         if ui.small_button(words).on_hover_text("All problems of this file").clicked() {

@@ -56,7 +56,11 @@ pub(super) fn bar(ui: &egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec
             let layout = if rect.width() < NARROW { egui::Layout::top_down(egui::Align::Min) } else { row };
             ui.with_layout(layout, |ui| sliders(ui, choice, requests));
             if !can_brush_here(editor) && !editor.session.is_brushing() {
-                let words = "Brushes shape a planar map without new vertices that meets its pins.";
+                let words = if editor.shows_page() && !editor.session.can_move_charts() {
+                    "The charts are being laid out."
+                } else {
+                    "Brushes shape a planar map without new vertices that meets its pins."
+                };
                 ui.label(egui::RichText::new(words).small().color(theme.weak_text));
             }
         })
@@ -186,8 +190,8 @@ fn dab(
     can_brush: bool,
 ) -> Option<BrushDab> {
     let is_brushing = editor.session.is_brushing();
-    let has_begun = is_brushing || ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
-    if !is_down(ui, response) || !has_begun {
+    let begins = ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
+    if !is_down(ui, response) || !(is_brushing || begins) {
         return None;
     }
     let at = response.interact_pointer_pos().filter(|_| is_brushing || can_brush)?;
@@ -195,7 +199,7 @@ fn dab(
     let brush = editor.tools.brush.in_plane(point_size(view), inverts);
     // The brush works on while the button is held.
     ui.ctx().request_repaint();
-    Some(BrushDab { brush, at: view.point_at(at) })
+    Some(BrushDab { brush, at: view.point_at(at), begins })
 }
 
 /// Camera moves. Beside a brush the other buttons pan, and the wheel with Alt resizes the brush.

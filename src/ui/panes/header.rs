@@ -24,6 +24,8 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
         if room >= ROOM_FOR_TITLE {
             ui.add_space(8.0);
             ui.strong(title);
+        } else {
+            ui.add_space(4.0);
         }
         if pane == Pane::Plane && editor.session.charts().is_some() {
             page_switch(ui, editor, requests);

@@ -4,6 +4,7 @@ use eframe::egui::{self, Button, Rect, Role, Vec2};
 
 use crate::session::{Action, LayoutCheckState, MapOrigin, Session};
 use crate::ui::{Control, Editor, Request, Tab, Tool, close_button, counted, theme_of, tip_with_keys};
+use freebound_core::mesh::Repair;
 
 /// Gap between the line and the edges of the pane, points.
 const GAP: f32 = 8.0;
@@ -50,6 +51,9 @@ fn words(origin: MapOrigin, session: &Session) -> String {
     let own = match origin {
         MapOrigin::FileLayout => return format!("Layout of the file{in_charts}"),
         MapOrigin::FromLayout => return format!("Relaxed layout of the file{in_charts}"),
+        MapOrigin::AutomaticSeams(0) if is_cut_open(session) => {
+            "Flattened after a repair that cut edges open".to_owned()
+        }
         MapOrigin::AutomaticSeams(0) => "Flattened without seams".to_owned(),
         MapOrigin::AutomaticSeams(edges) => format!("Unwrapped: {}", counted(edges, "seam edge", "seam edges")),
         MapOrigin::ChosenSeams => "Flattened along chosen seams".to_owned(),
@@ -57,6 +61,12 @@ fn words(origin: MapOrigin, session: &Session) -> String {
     };
     let replaced = if has_faulty_layout(session) { "; the layout of the file is not one-to-one" } else { "" };
     format!("{own}{in_charts}{replaced}")
+}
+
+/// True if a repair cut edges open.
+fn is_cut_open(session: &Session) -> bool {
+    let repaired = session.model().and_then(|model| model.prepared.repaired.as_ref());
+    repaired.is_some_and(|repaired| repaired.done().iter().any(|done| done.repair == Repair::Cut))
 }
 
 /// True if the layout of the file is known not to be one-to-one.

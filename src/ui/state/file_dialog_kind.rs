@@ -210,6 +210,9 @@ pub(in crate::ui) const BAKED: [&str; 2] =
     ["Picture for this layout…", "PNG: the picture of the file's own layout, drawn anew for the layout on the screen"];
 
 /// Reason why no picture can be drawn for the layout.
+pub(in crate::ui) const NO_MAP: &str = "There is nothing to export yet: open a mesh";
+
+/// Reason why no picture can be drawn for the layout.
 pub(in crate::ui) const NO_LAYOUT_PICTURE: &str = "Open a mesh with texture coordinates and its picture first";
 
 /// Export with a window of options.

@@ -53,7 +53,7 @@ pub use comparison::{ComparisonExport, MorphRequest};
 pub(in crate::ui) use file_dialog_kind::ExportOptions;
 pub(crate) use file_dialog_kind::is_picture;
 pub(in crate::ui) use file_dialog_kind::{
-    BAKED, COPY_COMMAND, COPY_LAYOUT, DialogForm, EXPORTS, FileDialogKind, MESHES, NO_LAYOUT_PICTURE, PATTERN,
+    BAKED, COPY_COMMAND, COPY_LAYOUT, DialogForm, EXPORTS, FileDialogKind, MESHES, NO_LAYOUT_PICTURE, NO_MAP, PATTERN,
 };
 pub use help::Help;
 pub(in crate::ui) use help::{DocumentationView, KeyClash, KeyList, Palette};

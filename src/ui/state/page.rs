@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use eframe::egui;
 use glam::{DAffine2, DVec2};
 
 use crate::session::movement_about;
@@ -71,6 +72,11 @@ impl GestureKind {
     /// Title for menus and buttons.
     pub const fn title(self) -> &'static str {
         ["Move", "Turn", "Scale"][self as usize]
+    }
+
+    /// Key that starts the gesture on selected charts.
+    pub const fn key(self) -> egui::Key {
+        [egui::Key::G, egui::Key::R, egui::Key::S][self as usize]
     }
 
     /// Description for menus and the list of keys.

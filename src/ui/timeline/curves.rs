@@ -13,10 +13,10 @@ use crate::ui::{Control, CurvesExport, Editor, FileDialogKind, Request, Theme, t
 use freebound_io::figure::{AxisScale, AxisSpan};
 
 /// Least width of a curve, points.
-const LEAST_WIDTH: f32 = 118.0;
+const LEAST_WIDTH: f32 = 110.0;
 
 /// Gap between two curves, points.
-const GAP: f32 = 12.0;
+const GAP: f32 = 20.0;
 
 /// Greatest number of steps for which single points are drawn.
 pub(super) const MOST_POINTS: usize = 80;

@@ -24,7 +24,7 @@ fn at(session: &Session, share: [f64; 2]) -> DVec2 {
 fn dab(session: &Session, kind: BrushKind, share: [f64; 2]) -> Action {
     let radius = 0.2 * embedding(session).bounds().extent();
     let brush = Brush { kind, radius, strength: 1.0 };
-    Action::Brush(BrushDab { brush, at: at(session, share) })
+    Action::Brush(BrushDab { brush, at: at(session, share), begins: true })
 }
 
 /// Carries out a stroke; all frames have to be planar.

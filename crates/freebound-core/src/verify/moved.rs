@@ -76,8 +76,8 @@ pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> Mov
 /// have the orientation of the other faces, and against all other charts. All other faces count as judged before. `chart`
 /// is the place of the chart in the list, which holds charts with a place of their own.
 ///
-/// The verdict says nothing about two faces of the chart itself that overlap. It runs in time linear in the faces near the
-/// moved ones, beside a scan of the chart.
+/// The verdict says nothing about two faces of the chart itself that overlap. Beside a scan of all charts, its time grows
+/// with the moved faces and those near them.
 pub fn shaped_verdict(charts: &[ChartInPlane<'_>], chart: usize, moved: &[VertexId]) -> MoveVerdict {
     let ChartInPlane { mesh, coordinates } = charts[chart];
     let mut has_moved = vec![false; mesh.vertex_count()];
@@ -98,11 +98,16 @@ pub fn shaped_verdict(charts: &[ChartInPlane<'_>], chart: usize, moved: &[Vertex
         (triangles.into_iter().filter_map(counter_clockwise).collect(), Vec::new());
     let (own, reach) = (triangles.len(), Bounds::of(triangles.iter().flatten().copied()));
     chart_of.resize(own, chart);
-    for (number, other) in charts.iter().enumerate().filter(|(number, _)| *number != chart) {
-        let corners = other.mesh.mesh().real_triangles().iter();
-        let near = corners.map(|corners| corners.map(|vertex| other.coordinates[vertex]));
-        let near = near.filter(|corners| Bounds::of(*corners).meets(reach));
-        triangles.extend(near.filter_map(counter_clockwise));
+    let near = |number: usize| {
+        let ChartInPlane { mesh, coordinates } = charts[number];
+        let is_away = number == chart || !Bounds::of(coordinates.iter().copied()).meets(reach);
+        let corners = if is_away { &[] } else { mesh.mesh().real_triangles() };
+        let corners = corners.iter().map(|corners| corners.map(|vertex| coordinates[vertex]));
+        corners.filter(|corners| Bounds::of(*corners).meets(reach)).filter_map(counter_clockwise).collect()
+    };
+    let near: Vec<Vec<[DVec2; 3]>> = (0..charts.len()).into_par_iter().map(near).collect();
+    for (number, near) in near.into_iter().enumerate() {
+        triangles.extend(near);
         chart_of.resize(triangles.len(), number);
     }
     let pairs = overlaps(&triangles, |a, b| (a < own) != (b < own), MOST_OVERLAPS);

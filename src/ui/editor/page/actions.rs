@@ -30,6 +30,17 @@ impl Editor {
             && self.session.failed_chart().is_none()
     }
 
+    /// Reason why packing does nothing.
+    pub(in crate::ui) fn pack_hindrance(&self) -> Option<&'static str> {
+        if !self.shows_page() {
+            Some("Show all charts on the page first")
+        } else if self.plane.page.selected().is_empty() && !self.session.has_placed_charts() {
+            Some("All charts are packed already")
+        } else {
+            None
+        }
+    }
+
     /// Activates a tool. Ends a stroke of the brush, and drops a gesture on charts.
     pub(in crate::ui::editor) fn take_up_tool(&mut self, tool: Tool) {
         if tool != Tool::Select {

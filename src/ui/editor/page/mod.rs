@@ -84,6 +84,12 @@ struct MovedPlane {
     plane: Arc<PlaneArrays>,
 }
 
+impl MovedPlane {
+    fn new(scene: &PageScene, coordinates: MovedCharts) -> Self {
+        Self { key: scene.key, plane: Arc::new(scene.moved(&coordinates)), coordinates }
+    }
+}
+
 /// Charts at other texture coordinates.
 type MovedCharts = Vec<(usize, Arc<Embedding>)>;
 
@@ -261,31 +267,39 @@ impl PageView {
     /// Draws charts where an accepted frame of a move or of a stroke has them. They stay there until the next scene.
     fn refresh_moved(&mut self, session: &Session) {
         let Some(scene) = &self.scene else { return };
-        let of_stroke = session.page_stroke().map(|stroke| {
-            let coordinates = stroke.coordinates().map(|at| (stroke.chart(), Arc::clone(at)));
-            coordinates.into_iter().collect::<MovedCharts>()
-        });
-        let of_move =
-            || session.move_state().map(|state| state.accepted.as_ref().map(|judged| judged.coordinates.clone()));
-        let Some(coordinates) = of_stroke.map(Some).or_else(of_move) else {
+        if let Some(stroke) = session.page_stroke() {
+            let Some(coordinates) = stroke.coordinates() else {
+                self.moved = None;
+                return;
+            };
+            let is_shown = |moved: &MovedPlane| {
+                moved.key == scene.key && moved.coordinates.first().is_some_and(|(_, at)| Arc::ptr_eq(at, coordinates))
+            };
+            if !self.moved.as_ref().is_some_and(is_shown) {
+                let stacked = stroke.stacked_coordinates(coordinates).map(|(chart, at)| (chart, Arc::new(at)));
+                let all = std::iter::once((stroke.chart(), Arc::clone(coordinates))).chain(stacked);
+                self.moved = Some(MovedPlane::new(scene, all.collect()));
+            }
+            return;
+        }
+        let Some(state) = session.move_state() else {
             // The page shows the document again: the move or the stroke was dropped, or kept back.
-            if self.asked.take().is_none() && !self.job.is_busy() && session.can_move_charts() {
+            if self.asked.take().is_none() && !self.job.is_busy() && !session.awaits_stroke() {
                 self.moved = None;
             }
             return;
         };
-        let Some(coordinates) = coordinates.filter(|coordinates| !coordinates.is_empty()) else { return };
+        let Some(coordinates) = state.accepted.as_ref().map(|judged| &judged.coordinates) else { return };
         let is_same = |((a, at), (b, other)): (&(usize, Arc<Embedding>), &(usize, Arc<Embedding>))| {
             a == b && Arc::ptr_eq(at, other)
         };
         let is_shown = |moved: &MovedPlane| {
             moved.key == scene.key
                 && moved.coordinates.len() == coordinates.len()
-                && moved.coordinates.iter().zip(&coordinates).all(is_same)
+                && moved.coordinates.iter().zip(coordinates).all(is_same)
         };
         if !self.moved.as_ref().is_some_and(is_shown) {
-            let plane = Arc::new(scene.moved(&coordinates));
-            self.moved = Some(MovedPlane { key: scene.key, coordinates, plane });
+            self.moved = Some(MovedPlane::new(scene, coordinates.clone()));
         }
     }
 

@@ -69,6 +69,9 @@ struct PreviewScene {
     verdict: Option<Arc<Verdict>>,
 }
 
+/// Greatest extent of a first map relative to its picture at which the window frames all of it.
+const MOST_BEYOND_PICTURE: f64 = 1.6;
+
 /// Inputs that the pane needs from the rest of the window, in each frame.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
@@ -240,7 +243,11 @@ impl PlaneView {
 
     /// Frames the first embedding, or restores the camera saved with the document.
     fn frame_first(&mut self, scene: &PlaneScene, around: Surroundings) {
-        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.pane.size());
+        let framed = around.framed_box(scene.arrays.bounds);
+        // All of the first map is seen, unless it is much larger than the picture.
+        let all = framed.union(scene.arrays.bounds);
+        let framed = if all.extent() <= MOST_BEYOND_PICTURE * framed.extent() { all } else { framed };
+        let camera = PlaneCamera::framing(framed, self.pane.size());
         self.set_framed(camera);
         if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.pane.size())) {
             self.pane.set_camera(saved);
