@@ -82,7 +82,7 @@ fn stroke(mesh: &DiskMesh, kind: BrushKind, (name, share): (&str, f64), place: &
     });
     let beside: Embedding =
         mesh.mesh().positions.iter().map(|p| p.truncate() + 1.01 * bounds.size().with_y(0.0)).collect();
-    let (mut sum, mut worst, mut proved, mut checked, mut among) = (0.0, 0.0_f64, 0, 0, 0.0);
+    let (mut sum, mut worst, mut proved, mut checked, mut judging) = (0.0, 0.0_f64, 0, 0, 0.0);
     for k in 2..=FRAMES {
         let (taken, frame) = time(|| solver.frame(mesh, pointer(k), Control::unattended()).expect("nobody stops it"));
         (sum, worst) = (sum + taken, worst.max(taken));
@@ -92,7 +92,7 @@ fn stroke(mesh: &DiskMesh, kind: BrushKind, (name, share): (&str, f64), place: &
             let charts = [solver.embedding(), &beside].map(|coordinates| ChartInPlane { mesh, coordinates });
             let (taken, judged) = time(|| shaped_verdict(&charts, 0, solver.moved()));
             assert!(judged.folded.is_empty(), "a planar sheet has no flipped face");
-            among += taken;
+            judging += taken;
         }
     }
     [
@@ -105,6 +105,6 @@ fn stroke(mesh: &DiskMesh, kind: BrushKind, (name, share): (&str, f64), place: &
         seconds(worst),
         solver.moved().len().to_string(),
         format!("{proved} of {checked}"),
-        seconds(among / f64::from(checked)),
+        seconds(judging / f64::from(checked)),
     ]
 }

@@ -213,15 +213,12 @@ impl PageStroke {
     /// Begins anew from the newest accepted frame. Returns its map, or the map before the stroke.
     pub(super) fn begin_again(&mut self) -> Arc<Embedding> {
         let on_page = &self.among.page.charts[self.among.chart];
-        match &self.accepted {
-            Some(frame) => {
-                self.among.begin = Arc::clone(&frame.coordinates);
-                Arc::clone(&frame.map)
-            }
-            None => {
-                self.among.begin = Arc::clone(&on_page.coordinates);
-                Arc::new(on_page.outcome.step.candidate.solution.embedding.clone())
-            }
+        if let Some(frame) = &self.accepted {
+            self.among.begin = Arc::clone(&frame.coordinates);
+            Arc::clone(&frame.map)
+        } else {
+            self.among.begin = Arc::clone(&on_page.coordinates);
+            Arc::new(on_page.outcome.step.candidate.solution.embedding.clone())
         }
     }
 

@@ -211,8 +211,8 @@ fn visuals(theme: &Theme, base: Visuals) -> Visuals {
     visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, theme.separator);
     visuals.window_stroke = Stroke::new(1.0, theme.separator);
     let widgets = &mut visuals.widgets;
-    // The title of an open menu.
-    widgets.open.weak_bg_fill = theme.accent.gamma_multiply(0.28);
+    // The title of an open menu, and of a window.
+    widgets.open.weak_bg_fill = theme.text.gamma_multiply(0.14);
     widgets.open.bg_fill = widgets.open.weak_bg_fill;
     for widget in [
         &mut widgets.noninteractive,

@@ -267,20 +267,19 @@ fn escape_drops_a_stroke_on_the_page_and_a_gesture_puts_the_brush_away() {
 #[test]
 fn vertices_of_turned_mirrored_and_locked_charts_follow_the_pointer() {
     let by = Vec2::new(14.0, 6.0);
-    let turn = |window: &mut Window| {
-        window.key(Key::R);
-        [Key::Num3, Key::Num0, Key::Enter].into_iter().for_each(|key| window.key(key));
-    };
-    let prepare: [(&str, &dyn Fn(&mut Window)); 3] = [
-        ("turned", &turn),
-        ("mirrored", &|window| window.menu(&["Move", "Mirror left to right"])),
-        ("locked", &|window| window.key(Key::L)),
-    ];
-    for (name, change) in prepare {
+    for name in ["turned", "mirrored", "locked"] {
         let mut window = with_sheets();
         let at = page::middle(&window, 0);
         window.click_at(at, Modifiers::NONE);
-        change(&mut window);
+        match name {
+            "mirrored" => window.menu(&["Move", "Mirror left to right"]),
+            "locked" => window.key(Key::L),
+            _ => {
+                for key in [Key::R, Key::Num3, Key::Num0, Key::Enter] {
+                    window.key(key);
+                }
+            }
+        }
         page::until_proved(&mut window);
         window.key(Key::B);
         window.click("Grab brush");

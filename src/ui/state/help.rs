@@ -134,6 +134,11 @@ impl Help {
         self.documentation.is_some()
     }
 
+    /// True if a window with words to read is open.
+    pub(in crate::ui) fn is_reading(&self) -> bool {
+        self.documentation.is_some() || self.about_shown || self.log_shown
+    }
+
     /// Opens the documentation at a place. Without a place, opens it at its beginning, or closes it.
     pub(in crate::ui) fn show_documentation(&mut self, place: Option<&str>) {
         self.documentation = match (place, self.documentation.take()) {

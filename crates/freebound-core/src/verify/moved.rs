@@ -81,7 +81,9 @@ pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> Mov
 pub fn shaped_verdict(charts: &[ChartInPlane<'_>], chart: usize, moved: &[VertexId]) -> MoveVerdict {
     let ChartInPlane { mesh, coordinates } = charts[chart];
     let mut has_moved = vec![false; mesh.vertex_count()];
-    moved.iter().for_each(|vertex| has_moved[vertex.index()] = true);
+    for vertex in moved {
+        has_moved[vertex.index()] = true;
+    }
     let at = |corners: &[VertexId; 3]| corners.map(|vertex| coordinates[vertex]);
     let is_moved = |corners: &&[VertexId; 3]| corners.iter().any(|vertex| has_moved[vertex.index()]);
     let all = mesh.mesh().real_triangles();

@@ -290,13 +290,11 @@ impl PageView {
             return;
         };
         let Some(coordinates) = state.accepted.as_ref().map(|judged| &judged.coordinates) else { return };
-        let is_same = |((a, at), (b, other)): (&(usize, Arc<Embedding>), &(usize, Arc<Embedding>))| {
-            a == b && Arc::ptr_eq(at, other)
-        };
         let is_shown = |moved: &MovedPlane| {
+            let mut pairs = moved.coordinates.iter().zip(coordinates);
             moved.key == scene.key
                 && moved.coordinates.len() == coordinates.len()
-                && moved.coordinates.iter().zip(coordinates).all(is_same)
+                && pairs.all(|(shown, wanted)| shown.0 == wanted.0 && Arc::ptr_eq(&shown.1, &wanted.1))
         };
         if !self.moved.as_ref().is_some_and(is_shown) {
             self.moved = Some(MovedPlane::new(scene, coordinates.clone()));

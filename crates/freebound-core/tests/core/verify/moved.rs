@@ -71,7 +71,7 @@ fn moved_vertices_of_a_chart_are_judged_as_all_of_it_is() {
         if random.below(2) == 0 {
             charts[0].1 = charts[0].1.iter().map(|z| DVec2::new(1.0 - z.x, z.y)).collect();
         }
-        let moved: Vec<VertexId> = (0..1 + random.below(2)).map(|_| VertexId::new(random.below(16))).collect();
+        let moved: Vec<VertexId> = (0..=random.below(2)).map(|_| VertexId::new(random.below(16))).collect();
         for &vertex in &moved {
             let by = DVec2::new(random.below(9).into(), random.below(9).into()) / 16.0 - 0.25;
             charts[0].1[vertex] += by;
