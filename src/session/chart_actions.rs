@@ -23,6 +23,11 @@ impl Session {
         self.model()?.prepared.chart.as_ref().map(|of| of.number)
     }
 
+    /// Name of a chart in the file, by the groups, objects or nodes of its faces. `None` if it has none.
+    pub fn chart_name(&self, number: usize) -> Option<&str> {
+        self.charts.name(self.charts()?, number)
+    }
+
     /// State of a chart relative to the document.
     pub fn chart_state(&self, number: usize) -> ChartState {
         let Some(of) = self.model().and_then(|model| model.prepared.chart.as_ref()) else { return ChartState::Failed };
@@ -164,6 +169,7 @@ impl Session {
         let Some(model) = self.model().filter(|_| is_ready).cloned() else { return };
         let Some(of) = model.prepared.chart.clone() else { return };
         let revision = self.model_revision();
+        self.charts.refresh_names(&model, &of.charts);
         self.charts.poll_forming(&of, revision);
         let (stop, is_at_rest) = (self.solving.stop_conditions(), !self.history.is_in_gesture());
         self.charts.poll_runs(&self.document, &of, stop, is_at_rest);

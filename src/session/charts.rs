@@ -10,7 +10,9 @@ use std::sync::Arc;
 use super::solving::{Next, Solved, Solving, StopReason, Task};
 use super::stop::Goal;
 use super::{Background, Document, Messages, Model, StopConditions, TIMELINE_BUDGET, Timeline, Wake};
+use freebound_core::mesh::Charts;
 use freebound_core::pipeline::{ChartOf, Outcome, Problem};
+use freebound_io::NamedGroups;
 
 /// Maximum number of charts that are solved at once beside the shown chart.
 const AT_ONCE: usize = 2;
@@ -49,6 +51,8 @@ pub(super) struct OtherCharts {
     forming: Background<(u64, usize), Model>,
     /// Chart that the user requested, until it is extracted.
     asked: Option<usize>,
+    /// Names of the charts of a mesh.
+    names: Option<(Arc<Charts>, Vec<String>)>,
 }
 
 /// Chart that is not shown.
@@ -59,6 +63,22 @@ struct Other {
     messages: Messages,
 }
 
+/// Name of each chart: of the group of most of its faces.
+fn names_of(model: &Model, charts: &Charts) -> Vec<String> {
+    let Some(NamedGroups { names, of_face }) = model.source.named_groups() else { return Vec::new() };
+    let name = |chart: usize| {
+        let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+        let faces = charts.faces(chart).iter().filter_map(|&face| charts.whole().face_in_file(face));
+        for group in faces.filter_map(|face| of_face.get(face.index())) {
+            *counts.entry(*group).or_default() += 1;
+        }
+        // Of equally many faces, those of the first group count.
+        let most = counts.into_iter().reduce(|most, other| if other.1 > most.1 { other } else { most });
+        most.and_then(|(group, _)| names.get(group as usize).cloned()).unwrap_or_default()
+    };
+    (0..charts.count()).map(name).collect()
+}
+
 /// Memory budget for the steps of a chart that is not shown, bytes. All these charts together use at most the budget of
 /// the shown chart.
 fn share(of: &ChartOf) -> usize {
@@ -67,14 +87,33 @@ fn share(of: &ChartOf) -> usize {
 
 impl OtherCharts {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
+        Self {
+            wake: Arc::clone(wake),
+            others: BTreeMap::new(),
+            forming: Background::new("chart", wake),
+            asked: None,
+            names: None,
+        }
     }
 
     /// Drops all charts, because another mesh is open or the mesh has another preparation.
     pub(super) fn forget(&mut self) {
         self.others.clear();
         self.forming.cancel();
-        self.asked = None;
+        (self.asked, self.names) = (None, None);
+    }
+
+    /// Name of a chart by the groups of its file; empty if it has none.
+    pub(super) fn name(&self, charts: &Arc<Charts>, chart: usize) -> Option<&str> {
+        let (_, names) = self.names.as_ref().filter(|(of, _)| Arc::ptr_eq(of, charts))?;
+        names.get(chart).map(String::as_str).filter(|name| !name.is_empty())
+    }
+
+    /// Finds the names of the charts once per mesh.
+    pub(super) fn refresh_names(&mut self, model: &Model, charts: &Arc<Charts>) {
+        if self.names.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, charts)) {
+            self.names = Some((Arc::clone(charts), names_of(model, charts)));
+        }
     }
 
     /// Model of a chart that is extracted.

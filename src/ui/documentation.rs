@@ -210,7 +210,9 @@ impl BookPage {
                 }
                 Event::End(TagEnd::Link) => edits.extend(unlinked.take().map(|words| (range, PageBlock::Text(words)))),
                 Event::End(TagEnd::CodeBlock) => {
-                    edits.extend(code.take().map(|lines| (range, PageBlock::Code(lines.trim_end().to_owned()))));
+                    // Numbers that differ from run to run are left out in the book.
+                    let lines = code.take().map(|lines| lines.trim_end().replace("[..]", "…"));
+                    edits.extend(lines.map(|lines| (range, PageBlock::Code(lines))));
                 }
                 _ => {}
             }

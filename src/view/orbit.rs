@@ -9,7 +9,8 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
 use super::Sphere;
 
-/// Vertical field of view, radians: about 35°, like a portrait lens.
+/// Field of view across the narrower side of the pane, radians: about 35°, like a portrait lens. A pane that becomes
+/// narrower shows the same, smaller.
 const FIELD_OF_VIEW: f64 = 0.61;
 /// Margin around a framed sphere, as a factor of its distance.
 const FRAME_MARGIN: f64 = 1.04;
@@ -79,7 +80,7 @@ impl OrbitCamera {
             up_axis,
             scene,
         };
-        camera.frame(scene, DVec2::ONE);
+        camera.frame(scene);
         camera
     }
 
@@ -111,7 +112,7 @@ impl OrbitCamera {
     /// Pans such that points at the pivot's depth follow a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2, pane_size: DVec2) {
         // World units per point.
-        let scale = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0);
+        let scale = 2.0 * self.distance * half_height(pane_size) / pane_size.y.max(1.0);
         let [right, up, _] = self.axes();
         self.pivot += scale * (drag_in_points.y * up - drag_in_points.x * right);
     }
@@ -143,13 +144,10 @@ impl OrbitCamera {
         self.pivot = pivot;
     }
 
-    /// Shows a whole sphere in a pane of this size, keeping the viewing direction.
-    pub fn frame(&mut self, ball: Sphere, pane_size: DVec2) {
-        let half = FIELD_OF_VIEW / 2.0;
-        let aspect = aspect_ratio(pane_size);
-        let half_across = (half.tan() * aspect).atan();
+    /// Shows a whole sphere in a pane of any size, keeping the viewing direction.
+    pub fn frame(&mut self, ball: Sphere) {
         self.pivot = ball.center;
-        self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
+        self.distance = self.within_limits(FRAME_MARGIN * ball.radius / (FIELD_OF_VIEW / 2.0).sin());
     }
 
     /// Pivot x, y, z and distance, world units; yaw about the vertical y axis and pitch above the horizon, radians.
@@ -194,8 +192,9 @@ impl OrbitCamera {
     /// Transform from the world to clip space, in f64.
     pub fn clip_from_world(&self, pane_size: DVec2) -> DMat4 {
         let [near, far] = self.depth_range();
+        let field_of_view = 2.0 * half_height(pane_size).atan();
         let clip_from_view =
-            glam::dcamera::rh::proj::directx::perspective(FIELD_OF_VIEW, aspect_ratio(pane_size), near, far);
+            glam::dcamera::rh::proj::directx::perspective(field_of_view, aspect_ratio(pane_size), near, far);
         clip_from_view * self.view_from_world()
     }
 
@@ -214,7 +213,7 @@ impl OrbitCamera {
     /// Ray from the eye through a point of the pane.
     pub fn ray(&self, pointer: DVec2, pane_size: DVec2) -> Ray {
         let [right, up, back] = self.axes();
-        let across = (FIELD_OF_VIEW / 2.0).tan();
+        let across = half_height(pane_size);
         let clip = clip_from_pane(pointer, pane_size);
         let direction = across * (clip.x * aspect_ratio(pane_size) * right + clip.y * up) - back;
         Ray { origin: self.eye(), direction: direction / direction.length() }
@@ -266,6 +265,11 @@ impl OrbitCamera {
 fn aspect_ratio(pane_size: DVec2) -> f64 {
     let aspect = pane_size.x / pane_size.y;
     if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
+}
+
+/// Half of the height that a pane shows at distance 1.
+fn half_height(pane_size: DVec2) -> f64 {
+    (FIELD_OF_VIEW / 2.0).tan() / aspect_ratio(pane_size).min(1.0)
 }
 
 fn clip_from_pane(point: DVec2, pane_size: DVec2) -> DVec2 {

@@ -100,6 +100,23 @@ fn a_click_in_the_list_and_the_page_keys_lead_from_chart_to_chart() {
 }
 
 #[test]
+fn charts_have_the_names_of_the_objects_and_groups_in_their_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("named.obj");
+    let quad = |x: f64| format!("v {x} 0 0\nv {} 0 0\nv {} 1 0\nv {x} 1 0\n", x + 1.0, x + 1.0);
+    let [a, b, c] = [0.0, 3.0, 6.0].map(quad);
+    let text = format!("o Table\n{a}g Top\nf 1 2 3 4\n{b}g\nf 5 6 7 8\n{c}o\nf 9 10 11 12\n");
+    std::fs::write(&path, text).expect("a writable folder");
+    let mut window = Window::with_file(&path);
+    until_laid_out(&mut window);
+    let names = [0, 1, 2].map(|chart| window.editor().session.chart_name(chart).map(str::to_owned));
+    assert_eq!(names, [Some("Top".to_owned()), Some("Table".to_owned()), None]);
+    window.click("Charts 3");
+    let rows = window.controls().into_iter().filter(|(role, name, _)| *role == Role::Button && name.contains(", Top,"));
+    assert_eq!(rows.count(), 1);
+}
+
+#[test]
 fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
     let mut window = with_sheets();
     let densities = |window: &Window| window.editor().session.atlas().expect("laid out").densities.clone();

@@ -44,6 +44,10 @@ fn a_start_without_a_file_greets_and_the_photo_on_a_face_begins_the_tour() {
     assert_eq!(card(&first), None);
     first.menu(&["Help", "Guided tour"]);
     assert_eq!(card(&first), Some(TourCard::Look), "Help has it again");
+    first.menu(&["Help", "Welcome"]);
+    assert!(greets(&first));
+    first.menu(&["Help", "Guided tour"]);
+    assert!(!greets(&first) && card(&first) == Some(TourCard::Look), "the tour takes its place");
     // The welcome comes at every start, until the user turns it off.
     first.menu(&["Help", "Welcome"]);
     first.harness.get_by_role_and_label(Role::CheckBox, "Show at start").click();

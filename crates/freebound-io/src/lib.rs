@@ -116,10 +116,10 @@ pub use landmark_sets::LandmarkSet;
 pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
 pub use matrix_market::MatrixFile;
 pub use mesh_file::{
-    Instances, LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault,
-    ParseFaultKind, ReadError, ReadOptions, ReadProgress, ReadWarning, ReadWarningKind, Refined, RefinedChart, Source,
-    Statement, Texture, TextureError, TextureMesh, check_memory, memory_to_read, read_mesh, read_mesh_with,
-    read_stream, read_stream_with,
+    Instances, LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, NamedGroups,
+    ParseFault, ParseFaultKind, ReadError, ReadOptions, ReadProgress, ReadWarning, ReadWarningKind, Refined,
+    RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, check_memory, memory_to_read, read_mesh,
+    read_mesh_with, read_stream, read_stream_with,
 };
 pub use nearby::find_nearby;
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, material_pictures, write_obj};

@@ -50,6 +50,7 @@ pub struct Layout {
 impl Layout {
     /// Starts the guided tour from its first card.
     pub(crate) fn start_tour(&mut self) {
+        self.welcome.close();
         self.tour = Some(Tour::default());
     }
 

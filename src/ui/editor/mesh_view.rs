@@ -93,9 +93,8 @@ impl MeshView {
 
     /// Frames a ball.
     pub(super) fn frame(&mut self, ball: Sphere) {
-        let size = self.pane.size();
         if let Some(camera) = self.pane.camera_mut() {
-            camera.frame(ball, size);
+            camera.frame(ball);
         }
     }
 

@@ -38,6 +38,8 @@ struct Row {
     state: ChartState,
     lock: LockState,
     place: Option<RowPlace>,
+    /// Name in the file.
+    title: Option<String>,
 }
 
 /// Place of a chart in the layout of all charts.
@@ -68,14 +70,17 @@ impl Row {
             stacked: atlas.stacked[chart],
         });
         let (faces, state) = (charts.faces(chart).len(), session.chart_state(chart));
-        Self { chart, faces, state, lock: session.lock_state_in(chart, atlas), place }
+        let title = session.chart_name(chart).map(str::to_owned);
+        Self { chart, faces, state, lock: session.lock_state_in(chart, atlas), place, title }
     }
 
     /// Name for tooltips and screen readers.
     fn name(&self, words: &str, place: &str) -> String {
         let place = if place.is_empty() { String::new() } else { format!(", {place}") };
         let locked = if self.lock == LockState::Locked { ", locked" } else { "" };
-        format!("Chart {}, {}, {words}{place}{locked}", self.chart, counted(self.faces, "face", "faces"))
+        let title = self.title.as_ref().map(|title| format!(", {title}")).unwrap_or_default();
+        let faces = counted(self.faces, "face", "faces");
+        format!("Chart {}{title}, {faces}, {words}{place}{locked}", self.chart)
     }
 
     /// Tooltip of the row's lock.
@@ -558,9 +563,11 @@ fn row_of(ui: &mut egui::Ui, row: &Row, (is_shown, shows_page): (bool, bool), re
         let job = RichText::new(words).color(colour);
         egui::WidgetText::from(job).into_galley(ui, Some(egui::TextWrapMode::Truncate), inner.width(), style)
     };
+    let below = [row.title.as_deref(), Some(place.as_str())].into_iter().flatten().filter(|words| !words.is_empty());
+    let below = below.collect::<Vec<_>>().join(" · ");
     let left = galley(ui, &line, egui::TextStyle::Body, theme.text);
     let right = galley(ui, &words, egui::TextStyle::Body, colour);
-    let below = galley(ui, &place, egui::TextStyle::Small, theme.weak_text);
+    let below = galley(ui, &below, egui::TextStyle::Small, theme.weak_text);
     let top = inner.top() + 2.0;
     let start = Pos2::new((inner.right() - right.size().x).max(inner.left() + left.size().x + 8.0), top);
     let painter = ui.painter_at(inner);

@@ -24,7 +24,9 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
             let tip = "Repair the mesh and cut it along short seams. The file is not changed; undo reverts this";
             let unwrap = Action::Unwrap(None).into();
             ui.button("Unwrap").on_hover_text(tip_with_keys(ui, tip, &unwrap)).asks(unwrap, requests);
-            ui.weak(sentence(&done.join(", ")));
+            if !done.is_empty() {
+                ui.weak(format!("Its repair: {}", done.join(", ")));
+            }
         }
         for fault in &diagnosis.faults {
             ui.separator();

@@ -48,8 +48,8 @@ fn beginnings() -> [Beginning; 3] {
 /// Shows the welcome over the panes, until a way to begin is chosen or it is closed.
 pub(in crate::ui) fn welcome(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let opening = editor.session.model().map(|_| editor.session.opening_revision());
-    if !editor.layout.welcome.is_shown_at(opening) || editor.files.dialogs.is_open() || editor.layout.help.is_reading()
-    {
+    let is_covered = editor.files.dialogs.is_open() || editor.layout.help.is_reading();
+    if !editor.layout.welcome.is_shown_at(opening) || is_covered {
         return;
     }
     let editor = &*editor;

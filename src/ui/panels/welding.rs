@@ -64,7 +64,7 @@ fn offer(ui: &mut egui::Ui, session: &Session, distance: WeldDistance, requests:
         remark(ui, "Counting…");
         return;
     };
-    ui.horizontal_wrapped(|ui| {
+    ui.vertical(|ui| {
         let is_new = session.document().form.repair.weld_distance() != Some(distance);
         let button = ui.add_enabled(count > 0 && is_new, egui::Button::new("Weld vertices"));
         let tip = "They become one, at the position of the first. The file is not changed; undo reverts this";

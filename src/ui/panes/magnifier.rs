@@ -258,7 +258,7 @@ pub(super) fn over_mesh(
     let (insets, kind, about) = (&editor.layout.insets, InsetKind::PairOnMesh, InsetSubject::Pair(Some(vertex)));
     let mut camera = view.camera;
     let radius = PART * scene.sphere.radius / insets.factor(None);
-    camera.frame(Sphere { center: position, radius }, size_of(inset));
+    camera.frame(Sphere { center: position, radius });
     camera.pan(insets.panned(kind, about), size_of(inset));
     let reach = |camera: &OrbitCamera| camera.eye().distance(position);
     let enlarges = reach(&view.camera) / reach(&camera) * f64::from(inset.height() / view.rect.height());

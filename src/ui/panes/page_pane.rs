@@ -300,7 +300,8 @@ pub(in crate::ui) fn numbers(editor: &Editor) -> Vec<String> {
     let mut parts = Vec::new();
     let atlas = editor.session.newest_atlas();
     if let Some(chart) = editor.plane.page.hovered() {
-        parts.push(format!("Chart {chart}"));
+        let name = editor.session.chart_name(chart).map(|name| format!(" {name}")).unwrap_or_default();
+        parts.push(format!("Chart {chart}{name}"));
         if let Some(density) = atlas.and_then(|atlas| atlas.densities.get(chart)) {
             parts.push(format!("{} px per unit", five_digits(*density)));
         }

@@ -182,7 +182,8 @@ fn framing_shows_the_whole_mesh_at_any_scale_and_place() {
             let positions: Vec<DVec3> = positions.iter().map(|&p| scale * (p + 1000.0)).collect();
             let arrays = MeshArrays::new(&positions, &triangles);
             let mut camera = OrbitCamera::framing(Sphere::around(&positions), UpAxis::Y);
-            camera.frame(Sphere::around(&positions), pane);
+            // A pane of any size shows what one of another size shows.
+            camera.frame(Sphere::around(&positions));
             let clip_from_unit = camera.clip_from_unit(arrays.frame, pane);
             for &[x, y, z] in &arrays.points {
                 let clip = clip_from_unit * Vec4::new(x, y, z, 1.0);

@@ -173,6 +173,17 @@ impl Scene {
         self.labels(face_count, |part| self.shown.parts[part].instance)
     }
 
+    /// Name of the node of each instance, or of its mesh. Empty if neither has a name.
+    pub(crate) fn node_names(&self) -> Vec<String> {
+        let json: Value = serde_json::from_slice(&self.json).unwrap_or_default();
+        let name = |instance: &Instance| {
+            let of_node = instance.node.and_then(|node| json["nodes"][node]["name"].as_str());
+            let name = of_node.filter(|name| !name.is_empty()).or(json["meshes"][instance.mesh]["name"].as_str());
+            name.unwrap_or_default().to_owned()
+        };
+        self.shown.instances.iter().map(name).collect()
+    }
+
     fn labels(&self, face_count: usize, of_part: impl Fn(usize) -> usize) -> Vec<u32> {
         let label = |face: usize| u32::try_from(of_part(self.shown.part_of(face))).expect("fewer than 2^32 parts");
         (0..face_count).map(label).collect()

@@ -44,7 +44,7 @@ use freebound_core::problem::Embedding;
 pub(crate) use error::{FaultPlace, fault_at, fault_in};
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, ReadWarning, ReadWarningKind, TextureError};
 pub(crate) use format::is_gltf;
-pub use labels::LabelError;
+pub use labels::{LabelError, NamedGroups};
 pub use layout::LayoutError;
 pub use memory::{MemoryShortage, check_memory, memory_to_read};
 pub use read::{Instances, ReadOptions, ReadProgress, read_mesh, read_mesh_with, read_stream, read_stream_with};
