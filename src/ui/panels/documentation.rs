@@ -21,6 +21,12 @@ const LIST: (f32, [f32; 2]) = (0.28, [150.0, 240.0]);
 const COLUMN_GAP: f32 = 12.0;
 const LETTER: f32 = 6.8;
 
+/// Least width of a column, points.
+const LEAST_COLUMN: f32 = 40.0;
+
+/// Least size of the window, points.
+const LEAST_SIZE: [f32; 2] = [440.0, 200.0];
+
 /// Size of the largest headings, points.
 const HEADING: f32 = 21.0;
 
@@ -30,7 +36,11 @@ pub(super) fn documentation(context: &egui::Context, editor: &mut Editor) {
     let mut is_open = true;
     let room = context.content_rect().size() - egui::Vec2::new(48.0, 80.0);
     let window = egui::Window::new("Documentation").open(&mut is_open).collapsible(false);
-    let window = window.default_size(room.min(SIZE.into())).max_size(room).pivot(Align2::CENTER_CENTER);
+    let window = window
+        .default_size(room.min(SIZE.into()))
+        .max_size(room)
+        .min_size(room.min(LEAST_SIZE.into()))
+        .pivot(Align2::CENTER_CENTER);
     window.default_pos(context.content_rect().center()).show(context, |ui| {
         let (share, [least, most]) = LIST;
         let width = (share * ui.available_width()).clamp(least, most);
@@ -173,7 +183,7 @@ fn column_widths(rows: &[Vec<String>], room: f32) -> Vec<f32> {
     order.sort_by(|&a, &b| wanted[a].total_cmp(&wanted[b]));
     for (place, column) in order.into_iter().enumerate() {
         // Narrow columns come first. What they do not need goes to the others.
-        widths[column] = wanted[column].min(left / (count - place) as f32);
+        widths[column] = wanted[column].min((left / (count - place) as f32).max(LEAST_COLUMN));
         left -= widths[column];
     }
     widths
@@ -187,4 +197,26 @@ fn code(ui: &mut egui::Ui, lines: &str) {
         ui.add(egui::Label::new(egui::RichText::new(lines).monospace()).wrap().selectable(true));
     });
     ui.add_space(8.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_share_any_room_and_are_never_without_width() {
+        let row = |cells: &[&str]| cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
+        let long = "a cell with many words that wrap in several lines";
+        for rows in [vec![row(&["a", long])], vec![row(&["", "b", long, long]), row(&[long, "", "c", "d"])]] {
+            let count = rows[0].len() as f32;
+            for room in 0..1000 {
+                let room = room as f32;
+                let widths = column_widths(&rows, room);
+                let sum: f32 = widths.iter().sum::<f32>() + COLUMN_GAP * (count - 1.0);
+                assert!(widths.iter().all(|width| *width > 0.0), "{room}: {widths:?}");
+                let least = count * LEAST_COLUMN + COLUMN_GAP * (count - 1.0);
+                assert!(sum <= room.max(least) + 0.01, "{room}: {widths:?}");
+            }
+        }
+    }
 }
