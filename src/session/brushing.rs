@@ -237,6 +237,9 @@ impl Session {
 
     /// Shows finished frames, and makes a stroke that has ended an edit.
     pub(super) fn poll_brush(&mut self) {
+        if self.brushing.awaited.is_some() && !self.awaits_stroke() {
+            self.brushing.awaited = None;
+        }
         if self.is_stroke_outdated() {
             return self.give_up_brush();
         }

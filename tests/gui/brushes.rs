@@ -150,6 +150,13 @@ fn page_window() -> Window {
     window
 }
 
+/// Presses a key that resizes the brush some times.
+fn resize(window: &mut Window, key: Key, times: usize) {
+    for _ in 0..times {
+        window.key(key);
+    }
+}
+
 /// Coordinates of a chart of the page.
 fn on_page(window: &Window, chart: usize) -> Arc<Embedding> {
     Arc::clone(&window.editor().session.page().expect("a page").charts[chart].coordinates)
@@ -203,9 +210,7 @@ fn a_stroke_on_the_page_shapes_the_chart_under_it_and_leaves_all_others_where_th
 fn a_stroke_moves_only_the_vertices_under_the_brush_on_the_page() {
     let mut window = page_window();
     window.click("Grab brush");
-    for _ in 0..8 {
-        window.key(Key::OpenBracket);
-    }
+    resize(&mut window, Key::OpenBracket, 8);
     let before = on_page(&window, 0);
     let from = page::middle(&window, 0);
     window.drag(from, from + Vec2::new(6.0, 2.0), Modifiers::NONE);
@@ -222,9 +227,7 @@ fn a_chart_that_a_brush_moves_stops_before_another_unless_alt_is_held() {
         window.click("Grab brush");
         let (from, to) = (page::middle(&window, 0), page::middle(&window, 1));
         let before = on_page(&window, 0);
-        for _ in 0..16 {
-            window.key(Key::CloseBracket);
-        }
+        resize(&mut window, Key::CloseBracket, 16);
         window.begin_drag(from, from.lerp(to, 0.005), modifiers);
         page::until(&mut window, |editor| editor.session.page_stroke().is_some_and(|s| s.coordinates().is_some()));
         window.harness.hover_at(to);
@@ -329,9 +332,7 @@ fn a_brushed_chart_with_a_hole_stays_where_it_lies_or_is_locked() {
         page::until_proved(&mut window);
         window.key(Key::B);
         window.click("Grab brush");
-        for _ in 0..6 {
-            window.key(Key::OpenBracket);
-        }
+        resize(&mut window, Key::OpenBracket, 6);
         let before = on_page(&window, chart);
         window.drag(at, at + Vec2::new(5.0, 2.0), Modifiers::NONE);
         page::until_proved(&mut window);
@@ -347,9 +348,7 @@ fn a_brushed_chart_with_a_hole_stays_where_it_lies_or_is_locked() {
 fn a_stroke_goes_on_where_a_neighbour_keeps_it_back() {
     let mut window = page_window();
     window.click("Texels brush");
-    for _ in 0..4 {
-        window.key(Key::OpenBracket);
-    }
+    resize(&mut window, Key::OpenBracket, 4);
     let (inside, other) = (page::middle(&window, 0), page::middle(&window, 1));
     // The point of the outline that is nearest to another chart.
     let aspect = window.editor().session.page().expect("a page").aspect;

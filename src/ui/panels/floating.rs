@@ -101,7 +101,7 @@ impl Editor {
     /// Requests a screenshot of the window, from which a pane is cropped.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
         let part = match pane {
-            Pane::Plane => self.plane.pane.rect().or(self.plane.page.pane.rect()),
+            Pane::Plane => self.plane.rect(),
             Pane::Mesh => self.mesh.pane.rect(),
         };
         let Some(part) = part else { return };

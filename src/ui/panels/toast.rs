@@ -55,8 +55,7 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
 
 /// Place of both panes. Default: the window.
 fn panes(context: &egui::Context, editor: &Editor) -> Rect {
-    let plane = editor.plane.pane.rect().or(editor.plane.page.pane.rect());
-    let panes = editor.mesh.pane.rect().into_iter().chain(plane);
+    let panes = editor.mesh.pane.rect().into_iter().chain(editor.plane.rect());
     panes.reduce(Rect::union).unwrap_or_else(|| context.content_rect())
 }
 

@@ -51,7 +51,7 @@ pub(in crate::ui) fn tour(context: &egui::Context, editor: &mut Editor) {
 
 /// Pane that a card covers a corner of: not the mesh if the card asks to turn or to pin it.
 fn pane_beside(context: &egui::Context, editor: &Editor, card: TourCard) -> Rect {
-    let plane = editor.plane.pane.rect().or(editor.plane.page.pane.rect());
+    let plane = editor.plane.rect();
     let [first, second] = match card {
         TourCard::Look | TourCard::Pin => [plane, editor.mesh.pane.rect()],
         _ => [editor.mesh.pane.rect(), plane],

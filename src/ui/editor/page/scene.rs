@@ -151,8 +151,7 @@ impl PageScene {
             winding_number(&outline, point).is_none_or(|winds| winds != 0)
         };
         let is_under = |&chart: &usize| {
-            let bounds = self.bounds[chart];
-            point.cmpge(bounds.low).all() && point.cmple(bounds.high).all() && {
+            self.bounds[chart].contains(point) && {
                 let loops = &self.spans[chart].loops;
                 loops.first().is_some_and(|outer| covers(outer)) && !loops[1..].iter().any(|rim| covers(rim))
             }
@@ -168,7 +167,7 @@ impl PageScene {
         let is_own = |chart: &usize| self.charts[*chart].stacked.is_none();
         let within = |chart: &usize| {
             let Bounds { low, high } = self.bounds[*chart];
-            point.cmpge(low - distance).all() && point.cmple(high + distance).all()
+            Bounds { low: low - distance, high: high + distance }.contains(point)
         };
         let away = |chart: usize| {
             let outline = self.outlines_of(chart).flatten();

@@ -91,6 +91,14 @@ impl Surroundings<'_> {
         let document = self.session.document();
         if document.picture.is_some() { picture_box(document) } else { embedding }
     }
+
+    /// Box that the window frames at first and after a change of size: all of the map, unless it is much larger than
+    /// its picture.
+    fn first_box(&self, embedding: Bounds) -> Bounds {
+        let framed = self.framed_box(embedding);
+        let all = framed.union(embedding);
+        if all.extent() <= MOST_BEYOND_PICTURE * framed.extent() { all } else { framed }
+    }
 }
 
 impl PlaneView {
@@ -108,6 +116,11 @@ impl PlaneView {
             page: PageView::new(wake),
             comparison: ComparisonView::new(wake),
         }
+    }
+
+    /// Place of the pane in the window, with one chart or with the page. `None` if the pane is hidden.
+    pub(in crate::ui) fn rect(&self) -> Option<egui::Rect> {
+        self.pane.rect().or(self.page.pane.rect())
     }
 
     /// Sets a camera that the window chose.
@@ -243,11 +256,7 @@ impl PlaneView {
 
     /// Frames the first embedding, or restores the camera saved with the document.
     fn frame_first(&mut self, scene: &PlaneScene, around: Surroundings) {
-        let framed = around.framed_box(scene.arrays.bounds);
-        // All of the first map is seen, unless it is much larger than the picture.
-        let all = framed.union(scene.arrays.bounds);
-        let framed = if all.extent() <= MOST_BEYOND_PICTURE * framed.extent() { all } else { framed };
-        let camera = PlaneCamera::framing(framed, self.pane.size());
+        let camera = PlaneCamera::framing(around.first_box(scene.arrays.bounds), self.pane.size());
         self.set_framed(camera);
         if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.pane.size())) {
             self.pane.set_camera(saved);
@@ -260,7 +269,7 @@ impl PlaneView {
             return;
         }
         let plane = self.drawn().filter(|_| self.is_framed());
-        let bounds = plane.map(|plane| around.framed_box(plane.arrays.bounds));
+        let bounds = plane.map(|plane| around.first_box(plane.arrays.bounds));
         if let (Some(bounds), Some(mut camera)) = (bounds, self.pane.camera()) {
             camera.frame(bounds, self.pane.size());
             self.set_framed(camera);
