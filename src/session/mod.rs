@@ -159,7 +159,7 @@ use messages::{Messages, Written};
 
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
-pub use page::{ChartMove, ChartPage, JudgedMove, MoveState, PageChart, movement_about};
+pub use page::{ChartMove, ChartPage, JudgedFrame, JudgedFrames, JudgedMove, MoveState, PageChart, movement_about};
 pub use page_stroke::{ChartPlacement, PageStroke};
 pub use preferences::{KeptChecker, KeptFolders, Preferences};
 pub use recent::RecentFiles;

@@ -185,34 +185,57 @@ struct MoveRequest {
     insists: bool,
 }
 
+/// Frame of a gesture on the page, with its verdict.
+pub trait JudgedFrame: Clone {
+    /// Verdict on the charts that the frame changes.
+    fn verdict(&self) -> &MoveVerdict;
+}
+
+impl JudgedFrame for JudgedMove {
+    fn verdict(&self) -> &MoveVerdict {
+        &self.verdict
+    }
+}
+
+/// Frames of a gesture on the page in progress.
+#[derive(Clone, Debug)]
+pub struct JudgedFrames<F> {
+    /// Newest frame that was accepted.
+    pub accepted: Option<F>,
+    /// Frame that the user asked for, if other charts keep it back.
+    pub kept_back: Option<F>,
+    /// Newest accepted frame without overlaps.
+    last_planar: Option<F>,
+}
+
+impl<F> Default for JudgedFrames<F> {
+    fn default() -> Self {
+        Self { accepted: None, kept_back: None, last_planar: None }
+    }
+}
+
+impl<F: JudgedFrame> JudgedFrames<F> {
+    /// Accepts a frame, or keeps it back if it is not planar and the user does not insist. Overlaps that were accepted
+    /// before end if the user no longer insists. Returns true if the frame is accepted.
+    pub(super) fn take(&mut self, frame: F, insists: bool) -> bool {
+        let is_planar = frame.verdict().is_planar();
+        if !is_planar && !insists {
+            if self.accepted.as_ref().is_some_and(|accepted| !accepted.verdict().is_planar()) {
+                self.accepted = self.last_planar.clone();
+            }
+            self.kept_back = Some(frame);
+            return false;
+        }
+        if is_planar {
+            self.last_planar = Some(frame.clone());
+        }
+        (self.accepted, self.kept_back) = (Some(frame), None);
+        true
+    }
+}
+
 /// Move of charts in progress.
-#[derive(Clone, Debug, Default)]
-pub struct MoveState {
-    /// Newest movement that was accepted.
-    pub accepted: Option<JudgedMove>,
-    /// Movement that the user asked for, if other charts keep it back.
-    pub kept_back: Option<JudgedMove>,
-    /// Newest accepted movement without overlaps.
-    last_planar: Option<JudgedMove>,
-}
-
-impl MoveState {
-    /// Accepts a movement.
-    fn accept(&mut self, judged: JudgedMove) {
-        if judged.verdict.is_planar() {
-            self.last_planar = Some(judged.clone());
-        }
-        (self.accepted, self.kept_back) = (Some(judged), None);
-    }
-
-    /// Keeps a movement back. Overlaps that were accepted before end, because the user no longer insists.
-    fn keep_back(&mut self, judged: JudgedMove) {
-        if self.accepted.as_ref().is_some_and(|accepted| !accepted.verdict.is_planar()) {
-            self.accepted = self.last_planar.clone();
-        }
-        self.kept_back = Some(judged);
-    }
-}
+pub type MoveState = JudgedFrames<JudgedMove>;
 
 /// The page, and the move of charts in progress.
 pub(super) struct PagePart {
@@ -354,11 +377,7 @@ impl PagePart {
         if let Some((request, judged)) = self.job.poll()
             && let (Some(state), Ok(judged)) = (&mut self.state, judged)
         {
-            if request.insists || judged.verdict.is_planar() {
-                state.accept(judged);
-            } else {
-                state.keep_back(judged);
-            }
+            state.take(judged, request.insists);
         }
         self.start_next();
         let has_ended = self.is_ending && !self.job.is_busy();

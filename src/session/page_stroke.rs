@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::action::BrushDab;
-use super::page::{ChartPage, PageChart};
+use super::page::{ChartPage, JudgedFrame, JudgedFrames, PageChart};
 use freebound_core::bijective::Brush;
 use freebound_core::geom::{Bounds, Similarity};
 use freebound_core::mesh::VertexId;
@@ -95,12 +95,7 @@ pub struct PageStroke {
     stacked: Vec<(usize, Vec<VertexId>)>,
     /// True if the chart may come to overlap others.
     insists: bool,
-    /// Newest frame that was accepted.
-    accepted: Option<ShapedFrame>,
-    /// Newest accepted frame without overlaps.
-    last_planar: Option<ShapedFrame>,
-    /// Verdict on a newer frame that other charts keep back.
-    kept_back: Option<MoveVerdict>,
+    frames: JudgedFrames<ShapedFrame>,
 }
 
 /// Frame of a stroke, judged.
@@ -109,6 +104,12 @@ pub(super) struct ShapedFrame {
     pub(super) map: Arc<Embedding>,
     pub(super) coordinates: Arc<Embedding>,
     verdict: MoveVerdict,
+}
+
+impl JudgedFrame for ShapedFrame {
+    fn verdict(&self) -> &MoveVerdict {
+        &self.verdict
+    }
 }
 
 /// Chart among the charts of the page, for verdicts on its frames.
@@ -142,7 +143,7 @@ impl PageStroke {
         let stacked = stacked_on(page, chart);
         let begin = Arc::clone(&on_page.coordinates);
         let among = AmongCharts { page: page.clone(), chart, placement, begin };
-        Some(Self { among, stacked, insists: false, accepted: None, last_planar: None, kept_back: None })
+        Some(Self { among, stacked, insists: false, frames: JudgedFrames::default() })
     }
 
     /// The chart.
@@ -162,7 +163,7 @@ impl PageStroke {
 
     /// Texture coordinates of the chart in the newest accepted frame.
     pub fn coordinates(&self) -> Option<&Arc<Embedding>> {
-        self.accepted.as_ref().map(|frame| &frame.coordinates)
+        self.frames.accepted.as_ref().map(|frame| &frame.coordinates)
     }
 
     /// Texture coordinates of a chart that lies on the chart, for coordinates of the chart.
@@ -176,12 +177,12 @@ impl PageStroke {
 
     /// Verdict on the newest frame, if other charts keep it back.
     pub fn kept_back(&self) -> Option<&MoveVerdict> {
-        self.kept_back.as_ref()
+        self.frames.kept_back.as_ref().map(JudgedFrame::verdict)
     }
 
     /// Verdict on the newest accepted frame.
     pub fn verdict(&self) -> Option<&MoveVerdict> {
-        self.accepted.as_ref().map(|frame| &frame.verdict)
+        self.frames.accepted.as_ref().map(JudgedFrame::verdict)
     }
 
     pub(super) fn set_insists(&mut self, insists: bool) {
@@ -192,28 +193,15 @@ impl PageStroke {
         self.among.clone()
     }
 
-    /// Accepts a frame, or keeps it back. Overlaps that were accepted before end if the user no longer insists. Returns
-    /// true if the frame is accepted.
+    /// Accepts a frame, or keeps it back. Returns true if the frame is accepted.
     pub(super) fn take(&mut self, frame: ShapedFrame) -> bool {
-        let is_planar = frame.verdict.is_planar();
-        if !is_planar && !self.insists {
-            if self.verdict().is_some_and(|accepted| !accepted.is_planar()) {
-                self.accepted = self.last_planar.clone();
-            }
-            self.kept_back = Some(frame.verdict);
-            return false;
-        }
-        if is_planar {
-            self.last_planar = Some(frame.clone());
-        }
-        (self.accepted, self.kept_back) = (Some(frame), None);
-        true
+        self.frames.take(frame, self.insists)
     }
 
     /// Begins anew from the newest accepted frame. Returns its map, or the map before the stroke.
     pub(super) fn begin_again(&mut self) -> Arc<Embedding> {
         let on_page = &self.among.page.charts[self.among.chart];
-        if let Some(frame) = &self.accepted {
+        if let Some(frame) = &self.frames.accepted {
             self.among.begin = Arc::clone(&frame.coordinates);
             Arc::clone(&frame.map)
         } else {
@@ -225,6 +213,6 @@ impl PageStroke {
     /// Map and coordinates of the newest accepted frame; `None` if the stroke changes nothing.
     pub(super) fn into_shaped(self) -> Option<(Arc<Embedding>, Arc<Embedding>)> {
         let before = &self.among.page.charts[self.among.chart].outcome.step.candidate.solution.embedding;
-        self.accepted.filter(|frame| *frame.map != *before).map(|frame| (frame.map, frame.coordinates))
+        self.frames.accepted.filter(|frame| *frame.map != *before).map(|frame| (frame.map, frame.coordinates))
     }
 }
