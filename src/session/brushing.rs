@@ -318,10 +318,15 @@ impl Session {
             edits.push(Command::SetLayout(Box::new(layout)));
         }
         if self.apply(Command::Together(edits)) {
-            self.solving.follow_newest();
             // The preview stays until the map arrives with its distortion.
-            self.begin(Goal::Until(self.stop_conditions()));
+            self.begin_shaped();
         }
+    }
+
+    /// Begins the run that shows the shaped map of the shown chart.
+    fn begin_shaped(&mut self) {
+        self.solving.follow_newest();
+        self.begin(Goal::Until(self.stop_conditions()));
     }
 
     /// Makes a stroke on the page an edit of its chart. The chart keeps the coordinates of the last frame.
@@ -354,8 +359,7 @@ impl Session {
         }
         self.brushing.awaited = self.problem_of_chart(chart).map(|problem| (chart, problem));
         if is_shown {
-            self.solving.follow_newest();
-            self.begin(Goal::Until(self.stop_conditions()));
+            self.begin_shaped();
         }
     }
 }

@@ -55,21 +55,38 @@ pub fn move_verdict(charts: &[ChartInPlane<'_>], moved: &BTreeSet<usize>) -> Mov
     let folded = numbers.into_iter().zip(are_planar).filter(|(_, planar)| !planar).map(|(chart, _)| chart).collect();
     let bounds: Vec<Bounds> = charts.par_iter().map(|chart| Bounds::of(chart.coordinates.iter().copied())).collect();
     let reach = moved.iter().fold(Bounds::EMPTY, |reach, &chart| reach.union(bounds[chart]));
-    let (mut triangles, mut chart_of) = (Vec::new(), Vec::new());
+    let mut near = ChartTriangles::default();
     for (number, chart) in charts.iter().enumerate().filter(|(number, _)| bounds[*number].meets(reach)) {
         let is_near = |corners: &[DVec2; 3]| moved.contains(&number) || Bounds::of(*corners).meets(reach);
         let at = |vertex| chart.coordinates[vertex];
         let own = chart.mesh.mesh().real_triangles().iter().map(|corners| corners.map(at)).filter(is_near);
-        triangles.extend(own.filter_map(counter_clockwise));
-        chart_of.resize(triangles.len(), number);
+        near.add(number, own);
     }
-    let counts = |a: usize, b: usize| {
-        let [a, b] = [chart_of[a], chart_of[b]];
-        a != b && (moved.contains(&a) || moved.contains(&b))
-    };
-    let pairs = overlaps(&triangles, counts, MOST_OVERLAPS);
-    let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
-    MoveVerdict { folded, overlapping: pairs.into_iter().map(of_charts).collect() }
+    let counts = |a: usize, b: usize| a != b && (moved.contains(&a) || moved.contains(&b));
+    MoveVerdict { folded, overlapping: near.overlapping(counts) }
+}
+
+/// Triangles of charts in the plane.
+#[derive(Default)]
+struct ChartTriangles {
+    triangles: Vec<[DVec2; 3]>,
+    chart_of: Vec<usize>,
+}
+
+impl ChartTriangles {
+    /// Adds triangles of a chart, without those that have no area.
+    fn add(&mut self, chart: usize, triangles: impl IntoIterator<Item = [DVec2; 3]>) {
+        self.triangles.extend(triangles.into_iter().filter_map(counter_clockwise));
+        self.chart_of.resize(self.triangles.len(), chart);
+    }
+
+    /// Pairs of charts with triangles that overlap. `counts` decides which two charts count.
+    fn overlapping(&self, counts: impl Fn(usize, usize) -> bool + Sync) -> BTreeSet<[usize; 2]> {
+        let chart_of = &self.chart_of;
+        let pairs = overlaps(&self.triangles, |a, b| counts(chart_of[a], chart_of[b]), MOST_OVERLAPS);
+        let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
+        pairs.into_iter().map(of_charts).collect()
+    }
 }
 
 /// Judges a chart of which some vertices moved, by exact arithmetic: the faces at these vertices by themselves, which must
@@ -96,25 +113,21 @@ pub fn shaped_verdict(charts: &[ChartInPlane<'_>], chart: usize, moved: &[Vertex
         own == wanted && own.is_some_and(|own| own != Orientation::Collinear)
     };
     let folded = if triangles.iter().all(is_whole) { Vec::new() } else { vec![chart] };
-    let (mut triangles, mut chart_of): (Vec<[DVec2; 3]>, Vec<usize>) =
-        (triangles.into_iter().filter_map(counter_clockwise).collect(), Vec::new());
-    let (own, reach) = (triangles.len(), Bounds::of(triangles.iter().flatten().copied()));
-    chart_of.resize(own, chart);
+    let reach = Bounds::of(triangles.iter().flatten().copied());
     let near = |number: usize| {
         let ChartInPlane { mesh, coordinates } = charts[number];
         let is_away = number == chart || !Bounds::of(coordinates.iter().copied()).meets(reach);
         let corners = if is_away { &[] } else { mesh.mesh().real_triangles() };
         let corners = corners.iter().map(|corners| corners.map(|vertex| coordinates[vertex]));
-        corners.filter(|corners| Bounds::of(*corners).meets(reach)).filter_map(counter_clockwise).collect()
+        corners.filter(|corners| Bounds::of(*corners).meets(reach)).collect()
     };
-    let near: Vec<Vec<[DVec2; 3]>> = (0..charts.len()).into_par_iter().map(near).collect();
-    for (number, near) in near.into_iter().enumerate() {
-        triangles.extend(near);
-        chart_of.resize(triangles.len(), number);
+    let others: Vec<Vec<[DVec2; 3]>> = (0..charts.len()).into_par_iter().map(near).collect();
+    let mut near = ChartTriangles::default();
+    near.add(chart, triangles);
+    for (number, others) in others.into_iter().enumerate() {
+        near.add(number, others);
     }
-    let pairs = overlaps(&triangles, |a, b| (a < own) != (b < own), MOST_OVERLAPS);
-    let of_charts = |[a, b]: [usize; 2]| [chart_of[a].min(chart_of[b]), chart_of[a].max(chart_of[b])];
-    MoveVerdict { folded, overlapping: pairs.into_iter().map(of_charts).collect() }
+    MoveVerdict { folded, overlapping: near.overlapping(|a, b| (a == chart) != (b == chart)) }
 }
 
 /// Corners in counter-clockwise order; `None` if the triangle has no area or a corner is not finite.
