@@ -403,7 +403,7 @@ impl Files {
                 Ok(Ok(written)) => messages.note("wrote", written),
                 Ok(Err(error)) if error.is_cancelled() => {
                     let text = format!("{} was not written: cancelled", error.path.display());
-                    messages.say(Message::note(MessagePlace::Embedding, text));
+                    messages.say(Message::caution(MessagePlace::Embedding, text));
                 }
                 Ok(Err(error)) => messages.fail(MessagePlace::Embedding, error.to_string(), None),
                 Err(failure) => messages.fail_background(MessagePlace::Embedding, "saving", &failure),

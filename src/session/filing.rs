@@ -48,11 +48,11 @@ impl Session {
             self.tell_faults();
         }
         for warning in warnings {
-            self.messages.say(Message::note(MessagePlace::Mesh, warning));
+            self.messages.say(Message::caution(MessagePlace::Mesh, warning));
         }
         if touching > 0 {
             let words = if touching == 1 { "1 vertex touches" } else { &format!("{touching} vertices touch") };
-            let note = Message::note(MessagePlace::Mesh, format!("{words} other parts without being joined"));
+            let note = Message::caution(MessagePlace::Mesh, format!("{words} other parts without being joined"));
             self.messages.say(note.with_remedy("weld within 0 if the parts are one surface"));
         }
         let file = self.files.project().cloned().or_else(|| self.model()?.path.clone());
@@ -147,7 +147,7 @@ impl Session {
             Err(_) if self.failed_chart().is_none() => {
                 self.messages.forget_notes();
                 let note = "the file is written once all charts are solved";
-                self.messages.say(Message::note(MessagePlace::Embedding, note));
+                self.messages.say(Message::caution(MessagePlace::Embedding, note));
                 return self.files.wait_to_save(request);
             }
             Err(missing) => {

@@ -22,8 +22,10 @@ pub fn named(vertices: &[VertexId]) -> String {
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// Success, such as a file that was written, or a note on the file of the mesh.
+    /// Success, such as a file that was written.
     Note,
+    /// Remark on something that was not done, or not as it was asked for. Nothing failed.
+    Caution,
     /// Failure.
     Error,
 }
@@ -92,9 +94,13 @@ impl Message {
         Self { severity: Severity::Note, ..Self::error(place, text) }
     }
 
-    /// True if the message reports success. Notes on the file of the mesh do not.
-    fn is_success(&self) -> bool {
-        self.severity == Severity::Note && self.place != MessagePlace::Mesh
+    pub(super) fn caution(place: MessagePlace, text: impl Into<String>) -> Self {
+        Self { severity: Severity::Caution, ..Self::error(place, text) }
+    }
+
+    /// True for success and remarks that do not belong to the file of the mesh.
+    fn is_passing(&self) -> bool {
+        self.severity != Severity::Error && self.place != MessagePlace::Mesh
     }
 
     /// Adds a remedy.
@@ -150,7 +156,8 @@ impl Messages {
     pub(super) fn note(&mut self, verb: &str, written: Written) {
         let about = written.about.as_ref().map_or_else(String::new, |about| format!(" ({about})"));
         let news = format!("{verb} {}{about}", written.names());
-        let notes = self.list.iter().filter(|message| message.is_success() && message.text != news);
+        let is_success = |message: &&Message| message.is_passing() && message.severity == Severity::Note;
+        let notes = self.list.iter().filter(is_success).filter(|message| message.text != news);
         let (mut texts, mut files) = (Vec::new(), Vec::new());
         for note in notes {
             texts.push(note.text.clone());
@@ -179,7 +186,7 @@ impl Messages {
 
     /// Removes error messages of the mesh pane, because the mesh has changed. Notes on its file stay.
     pub(super) fn forget_mesh(&mut self) {
-        self.list.retain(|message| message.place != MessagePlace::Mesh || message.severity == Severity::Note);
+        self.list.retain(|message| message.place != MessagePlace::Mesh || message.severity != Severity::Error);
     }
 
     /// Removes reports of written files.
@@ -189,7 +196,7 @@ impl Messages {
 
     /// Removes success messages of the embedding. Notes on the file of the mesh stay.
     pub(super) fn forget_notes(&mut self) {
-        self.list.retain(|message| !message.is_success());
+        self.list.retain(|message| !message.is_passing());
     }
 
     pub(super) fn clear(&mut self) {

@@ -174,7 +174,8 @@ impl Opened {
         document.take_charts(&model, pins, &project.relaxed_elsewhere);
         let restored = restored(&model, &document, &project.maps);
         if project.maps.values().any(|SavedMap(map)| map.is_empty()) {
-            remarks.push(Message::note(MessagePlace::Embedding, "a map of the project is damaged: it is solved again"));
+            let text = "a map of the project is damaged: it is solved again";
+            remarks.push(Message::caution(MessagePlace::Embedding, text));
         }
         // Saving must keep a picture that was only unavailable this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());

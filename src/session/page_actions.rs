@@ -207,7 +207,7 @@ impl Session {
             None => "rounding would fold a chart there, so it stays".to_owned(),
         };
         self.messages.forget_notes();
-        let note = Message::note(MessagePlace::Embedding, words);
+        let note = Message::caution(MessagePlace::Embedding, words);
         self.messages.say(note.with_remedy("hold Alt at the end to let charts overlap"));
     }
 

@@ -179,7 +179,12 @@ impl Session {
     /// Reports a face of the file that is not on the screen, because the mesh does not have it.
     pub fn tell_left_out(&mut self, face: FaceId) {
         let text = format!("face {} of the file is left out of the mesh", face.number());
-        self.messages.say(Message::note(MessagePlace::Mesh, text));
+        self.messages.say(Message::caution(MessagePlace::Mesh, text));
+    }
+
+    /// Reports that a command finds no edges.
+    pub fn tell_no_edge(&mut self, text: &str) {
+        self.messages.say(Message::caution(MessagePlace::Embedding, text));
     }
 
     /// Reports a failure in the embedding pane, with its remedy.

@@ -20,7 +20,7 @@ pub enum KeyPreset {
 const NONE: Modifiers = Modifiers::NONE;
 
 /// Changes of the Blender-like keys: keys of the table, and the keys in their place.
-const BLENDER: [[KeyboardShortcut; 2]; 9] = [
+const BLENDER: [[KeyboardShortcut; 2]; 17] = [
     [key(NONE, Key::F), key(NONE, Key::Home)],
     [key(NONE, Key::Home), key(Modifiers::SHIFT, Key::ArrowLeft)],
     [key(NONE, Key::End), key(Modifiers::SHIFT, Key::ArrowRight)],
@@ -30,6 +30,14 @@ const BLENDER: [[KeyboardShortcut; 2]; 9] = [
     [key(Modifiers::COMMAND, Key::P), key(NONE, Key::F3)],
     [key(NONE, Key::W), key(Modifiers::SHIFT, Key::Z)],
     [key(NONE, Key::Backspace), key(Modifiers::ALT, Key::P)],
+    [key(Modifiers::COMMAND, Key::Num1), key(NONE, Key::Num1)],
+    [key(NONE, Key::Num1), key(Modifiers::COMMAND, Key::Num1)],
+    [key(Modifiers::COMMAND, Key::Num2), key(NONE, Key::Num2)],
+    [key(NONE, Key::Num2), key(Modifiers::COMMAND, Key::Num2)],
+    [key(Modifiers::COMMAND, Key::Num3), key(NONE, Key::Num3)],
+    [key(NONE, Key::Num3), key(Modifiers::COMMAND, Key::Num3)],
+    [key(Modifiers::COMMAND, Key::Num4), key(NONE, Key::Num4)],
+    [key(NONE, Key::Num4), key(Modifiers::COMMAND, Key::Num4)],
 ];
 
 const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {

@@ -68,10 +68,12 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
     requests
 }
 
-/// Requests of the keys that belong to selected charts or to a gesture on them. These keys are removed from the input.
+/// Requests of the keys that belong to selected charts or elements, or to a gesture on charts. These keys are removed
+/// from the input.
 fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
-    let has_charts = editor.shows_page() && !editor.plane.page.selected().is_empty();
-    if !has_charts || context.text_edit_focused() || egui::Popup::is_any_open(context) {
+    let has_charts = !editor.plane.page.selected().is_empty();
+    let has_selection = editor.shows_page() && (has_charts || !editor.plane.page.elements().is_empty());
+    if !has_selection || context.text_edit_focused() || egui::Popup::is_any_open(context) {
         return Vec::new();
     }
     let is_in_gesture = editor.plane.page.gesture().is_some();
@@ -86,7 +88,8 @@ fn page_keys(context: &egui::Context, editor: &Editor) -> Vec<Request> {
                 gesture_key(key).filter(|request| !repeat || !matches!(request, PageRequest::Begin(_)))
             } else {
                 // A button that has the focus takes Enter.
-                begin_key(key).filter(|_| !(repeat || key == Key::Enter && has_focus))
+                let is_for = has_charts || key == Key::Enter;
+                begin_key(key).filter(|_| is_for && !(repeat || key == Key::Enter && has_focus))
             };
             let is_left = request.is_none();
             requests.extend(request.map(Request::Page));

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
 use super::key_map::KeyMap;
-use super::state::{FileDialogKind, PageRequest, Request, SelectBy, ShadingMode, StepTarget, Tool};
+use super::state::{FileDialogKind, PageRequest, Request, SelectBy, SelectionKind, ShadingMode, StepTarget, Tool};
 use crate::session::Action;
 
 /// Keyboard shortcut and its request.
@@ -50,10 +50,15 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
     bind(NONE, Key::L, "Lock the selected charts where they lie, or unlock them", || Request::ToggleLock),
     bind(NONE, Key::Y, "Show all charts on the page, or one chart alone", || Request::Page(PageRequest::Toggle)),
-    bind(CTRL, Key::A, "Select all vertices, or all charts of the page", || Request::SelectBy(SelectBy::All)),
+    bind(CTRL, Key::Num1, "Select vertices", || Request::SetSelectionKind(SelectionKind::ALL[0])),
+    bind(CTRL, Key::Num2, "Select edges", || Request::SetSelectionKind(SelectionKind::ALL[1])),
+    bind(CTRL, Key::Num3, "Select faces", || Request::SetSelectionKind(SelectionKind::ALL[2])),
+    bind(CTRL, Key::Num4, "Select charts of the page", || Request::SetSelectionKind(SelectionKind::Charts)),
+    bind(CTRL, Key::A, "Select all vertices, edges, faces or charts", || Request::SelectBy(SelectBy::All)),
     bind(CTRL, Key::I, "Select what is not selected", || Request::SelectBy(SelectBy::Invert)),
     bind(CTRL, Key::CloseBracket, "Grow the selection by its neighbours", || Request::SelectBy(SelectBy::Grow)),
     bind(CTRL, Key::OpenBracket, "Shrink the selection by its rim", || Request::SelectBy(SelectBy::Shrink)),
+    bind(CTRL, Key::L, "Select all that is connected with the selection", || Request::SelectBy(SelectBy::Connected)),
     bind(ALT, Key::L, "Select the edge loops of the selected edges", || Request::SelectBy(SelectBy::Loops)),
     bind(ALT, Key::R, "Select the edge rings of the selected edges", || Request::SelectBy(SelectBy::Rings)),
     bind(ALT, Key::Z, "Select through the mesh, or only what is seen", || Request::ToggleThrough),
@@ -68,6 +73,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::P, Tool::Fix.words()[3], || Request::SetTool(Tool::Fix)),
     bind(NONE, Key::C, Tool::Constrain.words()[3], || Request::SetTool(Tool::Constrain)),
     bind(NONE, Key::X, Tool::Seam.words()[3], || Request::SetTool(Tool::Seam)),
+    bind(SHIFT, Key::X, "Cut along the selected edges, or around the selected faces", || Request::CutSelection),
     bind(NONE, Key::B, Tool::Brush.words()[3], || Request::SetTool(Tool::Brush)),
     bind(NONE, Key::OpenBracket, "Make the brush smaller", || Request::ResizeBrush { grows: false }),
     bind(NONE, Key::CloseBracket, "Make the brush larger", || Request::ResizeBrush { grows: true }),
@@ -123,9 +129,9 @@ pub(super) fn with_keys_set(
 pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on the mesh", "Orbit"),
     ("Left drag on the embedding", "Pan; on a pin: move it"),
-    ("Ctrl + left drag", "Select the vertices, pins or charts in a box"),
-    ("Ctrl + Alt + left drag", "Select the vertices, pins or charts in a lasso"),
-    ("Ctrl + Shift + left drag", "Select the vertices, pins or charts under a stroke"),
+    ("Ctrl + left drag", "Select the elements, pins or charts in a box"),
+    ("Ctrl + Alt + left drag", "Select the elements, pins or charts in a lasso"),
+    ("Ctrl + Shift + left drag", "Select the elements, pins or charts under a stroke"),
     ("Arrows, with pins selected", "Move them by a pixel of the picture; with Shift, by ten"),
     ("Alt, while choosing a position", "Do not snap to pixels of the picture"),
     ("Left drag on a chart", "Move the selected charts; Ctrl snaps, Alt lets them overlap"),

@@ -60,7 +60,7 @@ pub(crate) use state::is_picture;
 pub use state::{
     Alignment, Axis, BrushChoice, CheckerRequest, CheckerStyle, ComparisonExport, CurveRequest, CurvesExport,
     GestureKind, Half, Help, HullStage, Intent, MorphRequest, PageRequest, Pane, Request, SeamClick, SeamRule,
-    SelectBy, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
+    SelectBy, SelectionKind, ShadingMode, Snap, StepTarget, Tab, Tool, Tour, TourCard, Welcome,
 };
 use theme::{Theme, theme_of};
 use typed::Typed;

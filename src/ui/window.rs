@@ -58,6 +58,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Only now: the pane drawn first shows the vertex found in the other pane.
         editor.pointer.set_vertex(None);
+        editor.pointer.set_element(None);
         editor.tools.seam.set_under(None);
         editor.plane.page.set_hovered(None);
     }

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use super::elements::{MeshEdge, ascending};
 use freebound_core::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
 /// Edge loops and rings of a disk. Faces that fill holes do not count.
@@ -15,24 +16,41 @@ pub struct EdgeLoops<'a>(pub &'a DiskMesh);
 impl EdgeLoops<'_> {
     /// True if an edge lies between two of the vertices.
     pub fn has_edge(self, vertices: &BTreeSet<VertexId>) -> bool {
-        self.edges_between(vertices).next().is_some()
+        self.sides_between(vertices).next().is_some()
     }
 
-    /// Ends of all edges of the loops through the edges between these vertices.
-    pub fn loops(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
-        self.reached(vertices, |side| [side, self.0.twin(side)].map(|side| self.straight_on(side)))
+    /// Edges between these vertices.
+    pub fn edges_between(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<MeshEdge> {
+        self.sides_between(vertices).map(|side| self.ends(side)).collect()
     }
 
-    /// Ends of all edges of the rings of the edges between these vertices.
-    pub fn rings(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<VertexId> {
-        self.reached(vertices, |side| [side, self.0.twin(side)].map(|side| self.opposite(side)))
+    /// Edges of the loops through these edges.
+    pub fn loops(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
+        self.reached(edges, |side| [side, self.0.twin(side)].map(|side| self.straight_on(side)))
+    }
+
+    /// Edges of the rings of these edges.
+    pub fn rings(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
+        self.reached(edges, |side| [side, self.0.twin(side)].map(|side| self.opposite(side)))
     }
 
     /// Sides of the edges between these vertices, both of each.
-    fn edges_between(self, vertices: &BTreeSet<VertexId>) -> impl Iterator<Item = HalfedgeId> {
+    fn sides_between(self, vertices: &BTreeSet<VertexId>) -> impl Iterator<Item = HalfedgeId> {
         let known = vertices.iter().copied().filter(move |vertex| vertex.index() < self.0.vertex_count());
         let among = move |side: &HalfedgeId| vertices.contains(&self.0.head(*side));
         known.flat_map(move |vertex| self.edges_at(vertex).collect::<Vec<_>>()).filter(among)
+    }
+
+    /// Side of an edge; `None` if the disk has no such edge.
+    fn side_of(self, [tail, head]: MeshEdge) -> Option<HalfedgeId> {
+        if tail.index() >= self.0.vertex_count() {
+            return None;
+        }
+        self.edges_at(tail).find(|&side| self.0.head(side) == head)
+    }
+
+    fn ends(self, side: HalfedgeId) -> MeshEdge {
+        ascending([self.0.tail(side), self.0.head(side)])
     }
 
     /// Sides of the edges that leave a vertex, counter-clockwise.
@@ -58,17 +76,18 @@ impl EdgeLoops<'_> {
 
     fn reached(
         self,
-        vertices: &BTreeSet<VertexId>,
+        edges: &BTreeSet<MeshEdge>,
         next: impl Fn(HalfedgeId) -> [Option<HalfedgeId>; 2],
-    ) -> BTreeSet<VertexId> {
+    ) -> BTreeSet<MeshEdge> {
         let of_edge = |side| self.0.halfedge(self.0.edge_of(side));
-        let mut reached: BTreeSet<HalfedgeId> = self.edges_between(vertices).map(of_edge).collect();
+        let sides = edges.iter().filter_map(|&edge| self.side_of(edge));
+        let mut reached: BTreeSet<HalfedgeId> = sides.map(of_edge).collect();
         let mut pending: Vec<HalfedgeId> = reached.iter().copied().collect();
         while let Some(side) = pending.pop() {
             let others = next(side).into_iter().flatten().map(of_edge);
             pending.extend(others.filter(|&other| reached.insert(other)));
         }
-        reached.into_iter().flat_map(|side| [self.0.tail(side), self.0.head(side)]).collect()
+        reached.into_iter().map(|side| self.ends(side)).collect()
     }
 
     /// Edge that continues straight at the head of a side. `None` if there is none, or no single one.
@@ -124,29 +143,40 @@ mod tests {
         vertices.into_iter().collect()
     }
 
+    /// Ends of the loops through the edges between these vertices.
+    fn loops(mesh: &DiskMesh, vertices: impl IntoIterator<Item = VertexId>) -> BTreeSet<VertexId> {
+        let loops = EdgeLoops(mesh);
+        loops.loops(&loops.edges_between(&set(vertices))).into_iter().flatten().collect()
+    }
+
+    /// Edges of the rings of the edges between these vertices.
+    fn rings(mesh: &DiskMesh, vertices: impl IntoIterator<Item = VertexId>) -> BTreeSet<MeshEdge> {
+        let loops = EdgeLoops(mesh);
+        loops.rings(&loops.edges_between(&set(vertices)))
+    }
+
     #[test]
     fn a_loop_of_squares_goes_from_side_to_side() {
         let mesh = squares();
-        let loops = EdgeLoops(&mesh);
-        assert_eq!(loops.loops(&set([v(1, 2), v(2, 2)])), set((0..=SIDE).map(|x| v(x, 2))));
-        assert_eq!(loops.loops(&set([v(1, 0), v(1, 1)])), set((0..=SIDE).map(|y| v(1, y))));
-        assert_eq!(loops.loops(&set([v(1, 2), v(3, 2)])), set([]), "no edge lies between them");
-        assert!(loops.has_edge(&set([v(0, 0), v(1, 0)])));
+        assert_eq!(loops(&mesh, [v(1, 2), v(2, 2)]), set((0..=SIDE).map(|x| v(x, 2))));
+        assert_eq!(loops(&mesh, [v(1, 0), v(1, 1)]), set((0..=SIDE).map(|y| v(1, y))));
+        assert_eq!(loops(&mesh, [v(1, 2), v(3, 2)]), set([]), "no edge lies between them");
+        assert!(EdgeLoops(&mesh).has_edge(&set([v(0, 0), v(1, 0)])));
         for diagonal in [[v(0, 0), v(1, 1)], [v(1, 0), v(0, 1)]] {
-            assert!(!loops.has_edge(&set(diagonal)));
+            assert!(!EdgeLoops(&mesh).has_edge(&set(diagonal)));
         }
     }
 
     #[test]
     fn a_loop_on_the_boundary_goes_around_it() {
         let rim = |i: u32| [v(i, 0), v(i, SIDE), v(0, i), v(SIDE, i)];
-        assert_eq!(EdgeLoops(&squares()).loops(&set([v(1, 0), v(2, 0)])), set((0..=SIDE).flat_map(rim)));
+        assert_eq!(loops(&squares(), [v(1, 0), v(2, 0)]), set((0..=SIDE).flat_map(rim)));
     }
 
     #[test]
     fn a_ring_of_squares_crosses_the_mesh() {
-        let rungs = (0..=SIDE).flat_map(|y| [v(1, y), v(2, y)]);
-        assert_eq!(EdgeLoops(&squares()).rings(&set([v(1, 3), v(2, 3)])), set(rungs));
+        let rungs: BTreeSet<MeshEdge> = (0..=SIDE).map(|y| [v(1, y), v(2, y)]).collect();
+        assert_eq!(rings(&squares(), [v(1, 3), v(2, 3)]), rungs, "without the edges between its rungs");
     }
 
     #[test]
@@ -154,9 +184,8 @@ mod tests {
         let mesh = square(|x, y| {
             vec![vec![v(x, y), v(x + 1, y), v(x + 1, y + 1)], vec![v(x, y), v(x + 1, y + 1), v(x, y + 1)]]
         });
-        let loops = EdgeLoops(&mesh);
-        assert_eq!(loops.loops(&set([v(1, 2), v(2, 2)])), set((0..=SIDE).map(|x| v(x, 2))));
-        assert_eq!(loops.loops(&set([v(1, 1), v(2, 2)])), set((0..=SIDE).map(|i| v(i, i))), "along the diagonals");
-        assert_eq!(loops.rings(&set([v(1, 2), v(2, 2)])), set([v(1, 2), v(2, 2)]));
+        assert_eq!(loops(&mesh, [v(1, 2), v(2, 2)]), set((0..=SIDE).map(|x| v(x, 2))));
+        assert_eq!(loops(&mesh, [v(1, 1), v(2, 2)]), set((0..=SIDE).map(|i| v(i, i))), "along the diagonals");
+        assert_eq!(rings(&mesh, [v(1, 2), v(2, 2)]), BTreeSet::from([[v(1, 2), v(2, 2)]]));
     }
 }

@@ -6,7 +6,9 @@
 //! | file | content |
 //! |---|---|
 //! | `space.rs` | extents, and unit space |
+//! | `elements.rs` | sets of vertices, edges or faces, and the element under a point |
 //! | `vertex_sets.rs` | sets of vertices that follow from others, such as grown ones |
+//! | `edge_loops.rs` | edge loops and rings |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
 //! | `pick.rs`, `ray_hit.rs`, `kdtree.rs` | picking under the pointer, and its searches |
 //! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
@@ -31,6 +33,7 @@ mod colour;
 mod comparison;
 mod draw;
 mod edge_loops;
+mod elements;
 mod kdtree;
 mod morph;
 mod orbit;
@@ -47,6 +50,7 @@ pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use comparison::{CellShading, ComparisonPicture};
 pub use draw::{DrawnFaces, EdgeList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use edge_loops::EdgeLoops;
+pub use elements::{ElementKind, ElementMesh, ElementSet, MeshEdge, MeshElement, MeshPart, distance_to_segment};
 pub use kdtree::PlanePicker;
 pub use morph::{MorphPicture, MorphPlace, MorphSight};
 pub use orbit::{OrbitCamera, Ray, UpAxis};

@@ -80,6 +80,11 @@ impl SurfacePicker {
         }
     }
 
+    /// Positions of all vertices.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
     /// Returns the first point of the surface on a ray.
     pub fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
         let (number, [distance, u, v]) =

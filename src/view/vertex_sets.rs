@@ -1,4 +1,4 @@
-//! Sets of vertices that follow from others: grown, shrunk, up to sharp edges, at the boundary, most distorted.
+//! Sets of vertices that follow from others: grown, shrunk, at the boundary. Triangles that are reached, or distorted.
 
 use std::collections::BTreeSet;
 
@@ -47,16 +47,18 @@ impl VertexSets<'_> {
         single.flat_map(|sides| self.ends(sides[0])).collect()
     }
 
-    /// Corners of the triangles that are reached from those at the vertices without crossing an edge whose faces meet at
-    /// this angle or more. The start is the triangles between the vertices; if there are none, those at the vertices.
-    pub fn up_to_sharp_edges(self, vertices: &BTreeSet<VertexId>, degrees: f64) -> BTreeSet<VertexId> {
+    /// Triangles between the vertices; if there are none, those at the vertices.
+    pub(super) fn faces_at(self, vertices: &BTreeSet<VertexId>) -> Vec<usize> {
         let is_in = self.marked(vertices);
         let count = |face: usize| self.triangles[face].iter().filter(|vertex| is_in[vertex.index()]).count();
         let with = |least: usize| (0..self.triangles.len()).filter(|&face| count(face) >= least).collect::<Vec<_>>();
-        let mut pending = with(3);
-        if pending.is_empty() {
-            pending = with(1);
-        }
+        let between = with(3);
+        if between.is_empty() { with(1) } else { between }
+    }
+
+    /// For each triangle: true if it is reached from others without crossing an edge whose faces meet at this angle or
+    /// more.
+    pub(super) fn faces_up_to_sharp_edges(self, mut pending: Vec<usize>, degrees: f64) -> Vec<bool> {
         let mut across = vec![[None; 3]; self.triangles.len()];
         for sides in self.edges().edges() {
             if let &[a, b] = sides
@@ -77,12 +79,12 @@ impl VertexSets<'_> {
                 }
             }
         }
-        self.corners_of(|face| is_reached[face])
+        is_reached
     }
 
-    /// Corners of the triangles with the greatest values that together have this share of the whole area, at least one
-    /// triangle.
-    pub fn greatest(self, value: impl Fn(usize) -> f64, share: f64) -> BTreeSet<VertexId> {
+    /// For each triangle: true if it is among those with the greatest values that together have this share of the area,
+    /// at least one triangle.
+    pub(super) fn greatest_faces(self, value: impl Fn(usize) -> f64, share: f64) -> Vec<bool> {
         let area = |face: usize| self.normal(face).length();
         let mut order: Vec<(f64, usize)> = (0..self.triangles.len()).map(|face| (value(face), face)).collect();
         order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -95,10 +97,11 @@ impl VertexSets<'_> {
                 break;
             }
         }
-        self.corners_of(|face| is_taken[face])
+        is_taken
     }
 
-    fn corners_of(self, is_wanted: impl Fn(usize) -> bool) -> BTreeSet<VertexId> {
+    /// Corners of the triangles that count.
+    pub(super) fn corners_of(self, is_wanted: impl Fn(usize) -> bool) -> BTreeSet<VertexId> {
         let mut is_in = vec![false; self.positions.len()];
         for face in (0..self.triangles.len()).filter(|&face| is_wanted(face)) {
             self.triangles[face].iter().for_each(|vertex| is_in[vertex.index()] = true);
@@ -106,7 +109,8 @@ impl VertexSets<'_> {
         (0..self.positions.len()).filter(|&vertex| is_in[vertex]).map(VertexId::from_index).collect()
     }
 
-    fn marked(self, vertices: &BTreeSet<VertexId>) -> Vec<bool> {
+    /// For each vertex: true if it is among these.
+    pub(super) fn marked(self, vertices: &BTreeSet<VertexId>) -> Vec<bool> {
         let mut is_in = vec![false; self.positions.len()];
         for vertex in vertices.iter().filter(|vertex| vertex.index() < self.positions.len()) {
             is_in[vertex.index()] = true;
@@ -114,11 +118,13 @@ impl VertexSets<'_> {
         is_in
     }
 
-    fn edges(self) -> EdgeTable {
+    /// Sides of all edges.
+    pub(super) fn edges(self) -> EdgeTable {
         EdgeTable::new(self.positions.len(), self.triangles)
     }
 
-    fn ends(self, side: u32) -> [VertexId; 2] {
+    /// Ends of a side of the edge table.
+    pub(super) fn ends(self, side: u32) -> [VertexId; 2] {
         let (corners, corner) = (self.triangles[side as usize / 3], side as usize % 3);
         [corners[corner], corners[(corner + 1) % 3]]
     }
@@ -139,7 +145,7 @@ impl VertexSets<'_> {
 mod tests {
     use super::*;
     use freebound_core::mesh::TriMesh;
-    use freebound_testkit::{grid, shaped};
+    use freebound_testkit::grid;
 
     fn sets(mesh: &TriMesh) -> VertexSets<'_> {
         VertexSets { positions: &mesh.positions, triangles: &mesh.triangles }
@@ -178,29 +184,5 @@ mod tests {
             !((0.5..3.5).contains(&p.x) && (0.5..2.5).contains(&p.y))
         };
         assert_eq!(sets(&mesh).boundary(), sets(&mesh).all().into_iter().filter(on_rim).collect());
-    }
-
-    #[test]
-    fn a_side_of_a_roof_ends_at_its_ridge() {
-        let mesh = shaped(8, 4, |x, y| DVec3::new(x, y, -(x - 4.0).abs()));
-        let side = sets(&mesh).up_to_sharp_edges(&set([20]), 60.0);
-        assert_eq!(side.len(), 25);
-        assert!(side.iter().all(|v| mesh.positions[v.index()].x <= 4.0));
-        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([20]), 91.0), sets(&mesh).all());
-        // A vertex of the ridge starts at the faces of both sides, three vertices at the face between them alone.
-        assert_eq!(sets(&mesh).up_to_sharp_edges(&set([22]), 60.0), sets(&mesh).all());
-        let corners = mesh.triangles[6].into_iter().collect();
-        assert_eq!(sets(&mesh).up_to_sharp_edges(&corners, 60.0), side);
-        assert!(sets(&mesh).up_to_sharp_edges(&set([]), 60.0).is_empty());
-    }
-
-    #[test]
-    fn the_faces_with_the_greatest_values_are_taken_up_to_their_share_of_the_area() {
-        let mesh = grid(10, 10);
-        let value = |face: usize| mesh.positions[mesh.triangles[face][0].index()].x;
-        let found = sets(&mesh).greatest(value, 0.1);
-        assert!(found.iter().all(|v| mesh.positions[v.index()].x >= 9.0) && found.len() == 22);
-        assert_eq!(sets(&mesh).greatest(value, 0.0).len(), 3, "one face at least");
-        assert_eq!(sets(&mesh).greatest(value, 1.0), sets(&mesh).all());
     }
 }

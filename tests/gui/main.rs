@@ -19,6 +19,7 @@ mod constraints;
 mod curves;
 mod defects;
 mod dialogs;
+mod elements;
 mod equation;
 mod file_layout;
 mod gestures;

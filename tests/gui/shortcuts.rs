@@ -5,7 +5,10 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::session::{Action, Document};
-use freebound::ui::{BINDINGS, BrushChoice, Pane, Request, SeamClick, SelectBy, ShadingMode, StepTarget, Tool};
+use freebound::ui::{
+    BINDINGS, BrushChoice, Pane, Request, SeamClick, SelectBy, SelectionKind, ShadingMode, StepTarget, Tool,
+};
+use freebound::view::ElementKind;
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 use freebound_core::problem::Stage;
@@ -87,7 +90,7 @@ fn begin_seam(window: &mut Window) {
 /// Number of vertices of the sheet that are selected after one of them was.
 fn selected_by(by: SelectBy) -> usize {
     match by {
-        SelectBy::All => 81,
+        SelectBy::All | SelectBy::Connected => 81,
         SelectBy::Invert => 80,
         SelectBy::Grow => 7,
         SelectBy::Shrink => 0,
@@ -97,24 +100,26 @@ fn selected_by(by: SelectBy) -> usize {
     }
 }
 
+/// Sets up the state in which a request changes something.
+fn prepare(window: &mut Window, request: &Request) {
+    match request {
+        // With a selected pin the arrows move the pin.
+        Request::GoToStep(_) => window.editor_mut().selection.select([VertexId::new(41)]),
+        Request::SetTool(Tool::Fix) => window.editor_mut().tools.take_up(Tool::Select),
+        Request::EndSeam => begin_seam(window),
+        Request::CutSelection => window.editor_mut().selection.select([39, 40, 41].map(VertexId::new)),
+        _ => {}
+    }
+}
+
 #[test]
 fn shortcuts_do_what_the_table_says() {
     for binding in BINDINGS {
         let mut window = busy_window();
         let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.pane.camera());
         assert_eq!(pins, 3);
-        // Moves the cameras away from framing, and selects another tool if the binding asks for Select.
         let request = (binding.request)();
-        if matches!(request, Request::GoToStep(_)) {
-            // With a selected pin the arrows move the pin.
-            window.editor_mut().selection.select([VertexId::new(41)]);
-        }
-        if request == Request::SetTool(Tool::Fix) {
-            window.editor_mut().tools.take_up(Tool::Select);
-        }
-        if request == Request::EndSeam {
-            begin_seam(&mut window);
-        }
+        prepare(&mut window, &request);
         window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
         let editor = window.editor();
         let done = match request {
@@ -144,6 +149,10 @@ fn shortcuts_do_what_the_table_says() {
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::ResizeBrush { grows } => (editor.tools.brush.radius > BrushChoice::default().radius) == grows,
             Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
+            // The sheet is a single chart.
+            Request::SetSelectionKind(SelectionKind::Charts) => editor.element_kind() == Some(ElementKind::Vertices),
+            Request::SetSelectionKind(kind) => editor.selection_kind_shown() == kind,
+            Request::CutSelection => editor.session.seams().edges().len() == 2,
             Request::SelectBy(by) => editor.selection.vertices().len() == selected_by(by),
             Request::ToggleThrough => editor.selection.through,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,

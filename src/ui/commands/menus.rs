@@ -8,7 +8,7 @@ use crate::session::{Action, LockState};
 use crate::ui::state::{
     Axis, BAKED, COPY_COMMAND, COPY_LAYOUT, CheckerRequest, CheckerStyle, EXPORTS, ExportOptions, FileDialogKind,
     GestureKind, NO_LAYOUT_PICTURE, NO_MAP, PATTERN, PageRequest, Pane, Request, SQUARES, SeamRule, SelectBy,
-    ShadingMode, StepTarget, Tab, Tool,
+    SelectionKind, ShadingMode, StepTarget, Tab, Tool,
 };
 use freebound_core::pipeline::Fit;
 
@@ -17,7 +17,16 @@ const NO_MESH: &str = "Open a mesh first";
 const NO_DISK: &str = "Open a mesh that can be flattened first";
 const NO_PINS: &str = "Place a pin first";
 const NO_SEAMS: &str = "There are no seams";
+const NO_CHARTS: &str = "The mesh has a single chart";
+const NO_ELEMENT: &str = "Select edges or faces first";
 const NO_CHART: &str = "Select charts of the page that are not locked first";
+
+/// Entry that cuts along the selection, and its description.
+const CUT_SELECTION: [&str; 2] =
+    ["Cut along the selection", "Cut along the selected edges, or around the selected faces"];
+
+/// Entry that closes seams along the selection, and its description.
+const JOIN_SELECTION: [&str; 2] = ["Join along the selection", "Close the seams along the selected edges"];
 
 /// Entry that colours faces by a table, and its description.
 const COLOUR_BY_COLUMN: [&str; 2] =
@@ -115,38 +124,15 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         menu.item(ALWAYS, "Make the brush larger", Request::ResizeBrush { grows: true });
         menu.item(ALWAYS, "Make the brush smaller", Request::ResizeBrush { grows: false });
     });
-    menu.part("Select", |menu| {
-        for by in SelectBy::ALL {
-            let allowed = when(editor.can_select_by(by), by.reason(editor.shows_page()));
-            menu.explained(allowed, by.words(), Request::SelectBy(by));
-        }
-        menu.separator();
-        menu.switch(editor.selection.through, "Through the mesh (X-ray)", Request::ToggleThrough);
-    });
-    menu.part("Seams", |menu| {
-        let has_model = session.model().is_some();
-        menu.item(when(session.can_unwrap(), NO_MESH), "Unwrap: find short seams", Action::Unwrap(None));
-        let degrees = editor.tools.seam.rules.degrees;
-        let sharp = format!("Cut along sharp edges: {degrees:.0}° or more");
-        menu.item(when(has_model, NO_MESH), &sharp, Request::CutByRule(SeamRule::Sharp(degrees)));
-        menu.item(when(has_model, NO_MESH), "Cut along borders of materials", Request::CutByRule(SeamRule::Materials));
-        menu.item(when(has_model, NO_MESH), "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
-        menu.separator();
-        let has_seams = !session.seams().edges().is_empty();
-        menu.explained(when(has_model, NO_MESH), COPY_LAYOUT, Request::Ask(FileDialogKind::CopyLayout));
-        menu.item(when(has_model, NO_MESH), "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
-        let can_export = has_seams || !session.seams().automatic().is_empty();
-        menu.item(when(can_export, NO_SEAMS), "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
-        menu.separator();
-        menu.item(when(has_seams, NO_SEAMS), "Clear seams", Request::ClearSeams);
-    });
+    menu.part("Select", select_menu);
+    menu.part("Seams", seams_menu);
     if session.charts().is_some() {
         page_menu(menu);
     }
     menu.separator();
-    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
+    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some() && !editor.shows_page();
     menu.item(
-        when(fixable, "Select vertices of the map first"),
+        when(fixable, "Select vertices of one chart, shown alone, first"),
         "Fix the selection",
         Action::Fix(editor.selection.vertices().iter().copied().collect()),
     );
@@ -161,6 +147,49 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
     menu.item(when(pin_count > 0, NO_PINS), "Mirror the targets", Action::MirrorTargets);
     menu.item(when(pin_count > 1, "Place at least two pins first"), "Fit the targets to the mesh", Action::FitTargets);
     menu.item(when(session.model().is_some(), NO_MESH), "Reverse the faces", Action::TurnFaces);
+}
+
+/// Entries that select charts, vertices, edges or faces.
+fn select_menu(menu: &mut MenuBuilder<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.part("What clicks select", |menu| {
+        let now = editor.selection_kind_shown();
+        for kind in SelectionKind::ALL {
+            let can_be = kind != SelectionKind::Charts || session.charts().is_some();
+            let [words, about] = kind.words();
+            let command = menu.command(when(can_be, NO_CHARTS), words, Request::SetSelectionKind(kind));
+            menu.add(MenuCommand { mark: Mark::Choice(now == kind), ..command.has_tip(about) });
+        }
+    });
+    for by in SelectBy::ALL {
+        let allowed = when(editor.can_select_by(by), by.reason(editor.element_kind().is_none()));
+        menu.explained(allowed, by.words(), Request::SelectBy(by));
+    }
+    menu.separator();
+    menu.switch(editor.selection.through, "Through the mesh (X-ray)", Request::ToggleThrough);
+}
+
+/// Entries that cut the mesh along seams.
+fn seams_menu(menu: &mut MenuBuilder<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    let has_model = session.model().is_some();
+    menu.item(when(session.can_unwrap(), NO_MESH), "Unwrap: find short seams", Action::Unwrap(None));
+    let degrees = editor.tools.seam.rules.degrees;
+    let sharp = format!("Cut along sharp edges: {degrees:.0}° or more");
+    menu.item(when(has_model, NO_MESH), &sharp, Request::CutByRule(SeamRule::Sharp(degrees)));
+    menu.item(when(has_model, NO_MESH), "Cut along borders of materials", Request::CutByRule(SeamRule::Materials));
+    menu.item(when(has_model, NO_MESH), "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
+    let has_elements = !editor.selected_elements().is_empty();
+    menu.explained(when(has_elements, NO_ELEMENT), CUT_SELECTION, Request::CutSelection);
+    menu.explained(when(has_elements, NO_ELEMENT), JOIN_SELECTION, Request::JoinSelection);
+    menu.separator();
+    let has_seams = !session.seams().edges().is_empty();
+    menu.explained(when(has_model, NO_MESH), COPY_LAYOUT, Request::Ask(FileDialogKind::CopyLayout));
+    menu.item(when(has_model, NO_MESH), "Import seams…", Request::Ask(FileDialogKind::ImportSeams));
+    let can_export = has_seams || !session.seams().automatic().is_empty();
+    menu.item(when(can_export, NO_SEAMS), "Export seams…", Request::Ask(FileDialogKind::ExportSeams));
+    menu.separator();
+    menu.item(when(has_seams, NO_SEAMS), "Clear seams", Request::ClearSeams);
 }
 
 fn view_menu(menu: &mut MenuBuilder<'_>) {

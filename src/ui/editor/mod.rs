@@ -20,6 +20,8 @@
 //! | `seam_actions.rs` | handling of requests to the seam tool |
 //! | `seam_tool.rs` | the seam being drawn, and shortest paths from its last vertex |
 //! | `element.rs` | elements of the mesh by name |
+//! | `drawn_elements.rs` | selected elements with their edges for drawing |
+//! | `elements.rs` | selection of vertices, edges and faces, on one chart and on the page |
 //! | `around.rs` | the charts around the chart on the screen |
 //! | `async_scene.rs` | background construction of scenes |
 //! | `selection.rs` | selection, element under the pointer, active tool |
@@ -47,7 +49,9 @@ mod colour_table;
 mod command_line;
 pub(super) mod comparison;
 mod defect;
+mod drawn_elements;
 mod element;
+mod elements;
 mod files;
 mod frames;
 mod gpu;
@@ -219,7 +223,7 @@ impl Editor {
         let (plane, around) = self.plane_in_surroundings();
         if let Some(scene) = plane.refresh(around) {
             let vertex_count = scene.mesh.mesh().vertex_count();
-            self.selection.keep_below(vertex_count);
+            self.selection.keep_on(&scene.mesh);
             self.pointer.keep_menu_below(vertex_count);
             let count = self.defect_count();
             self.selection.keep_defect_below(count);
@@ -228,6 +232,7 @@ impl Editor {
             }
         }
         self.plane.page.refresh(&self.session, self.mesh.scene());
+        self.refresh_selection_lines();
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());
         self.poll_shot();

@@ -10,6 +10,7 @@ use super::appearance::OnPicture;
 use crate::session::{Action, BakeRequest, LockState, PatternRequest, SaveRequest, UndoGroup, WaitingLandmark};
 use crate::ui::dialogs::DialogChoice;
 use crate::ui::state::{FileDialogKind, Half, PageRequest, Pane, PendingClose, Request, StepTarget, Tool, is_picture};
+use crate::view::ElementSet;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 use freebound_io::PROJECT_EXTENSION;
@@ -73,6 +74,12 @@ impl Editor {
             Request::Select(vertices) => self.selection.select(vertices),
             Request::AddToSelection(vertices) => self.selection.add(vertices),
             Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
+            Request::SetSelectionKind(kind) => self.set_selection_kind(kind),
+            Request::SelectElement { element, adds } => self.select_element(element, adds),
+            Request::SelectNothing => self.set_elements(ElementSet::default()),
+            Request::AddElements(elements) => self.add_elements(&elements),
+            Request::CutSelection => self.cut_selection(),
+            Request::JoinSelection => self.join_selection(),
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
             Request::TakeLandmark { after } => self.take_landmark(after),
@@ -80,7 +87,7 @@ impl Editor {
             Request::SetOpacity(opacity) => self.appearance_mut().opacity = opacity.clamp(0.0, 1.0),
             Request::Checker(request) => self.handle_checker(request),
             Request::ToggleSharp => self.pane_shading.toggle_sharp(),
-            Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
+            Request::UnpinSelected => self.act(Action::Unpin(self.pins_selected().collect())),
             Request::Escape => self.escape(),
             Request::Page(request) => self.handle_page(request),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
@@ -330,7 +337,7 @@ impl Editor {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else if self.shows_page() {
-            self.plane.page.select([]);
+            self.set_elements(ElementSet::default());
         } else if self.selection.vertices().is_empty() && self.session.charts().is_some() {
             self.handle_page(PageRequest::Show(true));
         } else {

@@ -8,7 +8,9 @@ use super::around::Around;
 use super::element::Element;
 use super::in_file::InFile;
 use crate::session::Model;
-use crate::view::{EdgeList, MeshArrays, PlaneArrays, PlanePicker, Ray, Sphere, SurfacePicker};
+use crate::view::{
+    EdgeList, ElementMesh, MeshArrays, MeshPart, PlaneArrays, PlanePicker, Ray, Sphere, SurfacePicker, VertexSets,
+};
 use freebound_core::flatten::Step;
 use freebound_core::mesh::{DiskMesh, NewVertex, Refinement, TriMesh, VertexId};
 use freebound_core::pipeline::Outcome;
@@ -110,16 +112,18 @@ impl MeshScene {
         self.model.disk().map_or(1.0, |disk| disk.unit())
     }
 
+    /// Elements of the mesh.
+    pub(in crate::ui) fn elements(&self) -> ElementMesh<'_> {
+        let mesh = self.mesh();
+        let sets = VertexSets { positions: &mesh.positions, triangles: mesh.real_triangles() };
+        let part = self.disk().map(|disk| MeshPart { disk, first_vertex: 0, first_face: 0 });
+        ElementMesh::new(sets, part.into_iter().collect())
+    }
+
     /// Rim of the hole with this lowest vertex; empty if there is none.
     pub(in crate::ui) fn hole_rim(&self, lowest: VertexId) -> Vec<VertexId> {
         let hole = self.mesh().holes().into_iter().find(|hole| hole.rim[0] == lowest);
         hole.map(|hole| hole.rim).unwrap_or_default()
-    }
-
-    /// Shown vertices.
-    pub(in crate::ui) fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        let all = (0..self.mesh().vertex_count()).map(VertexId::from_index);
-        all.filter(|vertex| self.hidden.binary_search(vertex).is_err())
     }
 
     /// Picker for the shown vertices at these positions in the plane.

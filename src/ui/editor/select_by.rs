@@ -1,13 +1,12 @@
-//! Selection of vertices by the mesh, by the map and by the present selection; of charts on the page.
-
-use std::collections::BTreeSet;
+//! Selection of elements by the mesh, by the map and by the present selection; of charts on the page.
 
 use super::Editor;
 use crate::session::{ChartState, LockState};
 use crate::ui::GOOD_ENERGY;
 use crate::ui::state::SelectBy;
-use crate::view::{EdgeLoops, VertexSets};
+use crate::view::{EdgeLoops, ElementKind, ElementSet};
 use freebound_core::mesh::VertexId;
+use freebound_core::verify::FaceDistortion;
 
 /// Share of the area that counts as the most distorted.
 const WORST: f64 = 0.1;
@@ -15,7 +14,7 @@ const WORST: f64 = 0.1;
 impl Editor {
     /// True if this way of selecting applies to what is shown.
     pub fn can_select_by(&self, by: SelectBy) -> bool {
-        if self.shows_page() {
+        let Some(kind) = self.element_kind() else {
             return match by {
                 SelectBy::All | SelectBy::Invert => true,
                 SelectBy::Pins | SelectBy::Distorted => {
@@ -23,19 +22,17 @@ impl Editor {
                 }
                 _ => false,
             };
-        }
-        let Some(scene) = self.mesh_scene().filter(|scene| self.is_of_session(scene)) else { return false };
+        };
+        let has_selection = !self.selected_elements().is_empty();
         match by {
-            SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges => !self.selection.vertices().is_empty(),
+            SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges | SelectBy::Connected => has_selection,
             SelectBy::Loops | SelectBy::Rings => {
-                scene.disk().is_some_and(|disk| EdgeLoops(disk).has_edge(self.selection.vertices()))
+                let is_for = kind != ElementKind::Faces || by == SelectBy::Loops;
+                has_selection && is_for && self.has_loops()
             }
-            SelectBy::Pins => !self.session.document().targets.is_empty(),
-            SelectBy::Distorted => self
-                .session
-                .outcome()
-                .is_some_and(|outcome| outcome.distortion.faces.len() == scene.mesh().real_triangles().len()),
-            SelectBy::All | SelectBy::Invert | SelectBy::Boundary => true,
+            SelectBy::Pins => kind == ElementKind::Vertices && !self.pinned_vertices().is_empty(),
+            SelectBy::Distorted => self.distortion_of_faces().is_some(),
+            SelectBy::All | SelectBy::Invert | SelectBy::Boundary => self.on_shown_mesh(|_| ()).is_some(),
         }
     }
 
@@ -43,35 +40,71 @@ impl Editor {
         if !self.can_select_by(by) {
             return;
         }
-        if self.shows_page() {
+        if let Some(kind) = self.element_kind() {
+            if let Some(elements) = self.elements_selected_by(kind, by) {
+                self.set_elements(elements);
+            }
+        } else {
             let charts: Vec<usize> =
                 (0..self.chart_count()).filter(|&chart| self.is_chart_selected_by(chart, by)).collect();
             self.plane.page.select(charts);
-        } else if let Some(vertices) = self.vertices_selected_by(by) {
-            self.selection.select(vertices);
         }
     }
 
-    fn vertices_selected_by(&self, by: SelectBy) -> Option<BTreeSet<VertexId>> {
-        // Just after a change of chart, the scene has the vertices of the chart before.
-        let scene = self.mesh_scene().filter(|scene| self.is_of_session(scene))?;
-        let sets = VertexSets { positions: &scene.mesh().positions, triangles: scene.mesh().real_triangles() };
-        let selected = self.selection.vertices();
-        Some(match by {
-            SelectBy::All => sets.all(),
-            SelectBy::Invert => sets.inverted(selected),
-            SelectBy::Grow => sets.grown(selected),
-            SelectBy::Shrink => sets.shrunk(selected),
-            SelectBy::SharpEdges => sets.up_to_sharp_edges(selected, self.tools.seam.rules.degrees),
-            SelectBy::Loops => EdgeLoops(scene.disk()?).loops(selected),
-            SelectBy::Rings => EdgeLoops(scene.disk()?).rings(selected),
-            SelectBy::Boundary => sets.boundary(),
-            SelectBy::Pins => self.session.document().targets.keys().copied().collect(),
-            SelectBy::Distorted => {
-                let outcome = self.session.outcome()?;
-                sets.greatest(|face| outcome.distortion.faces[face].symmetric_dirichlet(), WORST)
+    fn has_loops(&self) -> bool {
+        let elements = self.selected_elements();
+        // Menus ask in every frame, so the vertices of a single disk are searched without a table of its edges.
+        let disk = self.mesh_scene().and_then(|scene| scene.disk()).filter(|_| !self.shows_page());
+        match (elements.kind(), disk) {
+            (ElementKind::Vertices, Some(disk)) => EdgeLoops(disk).has_edge(elements.vertices()),
+            _ => self.on_shown_mesh(|mesh| mesh.has_loops(elements)).unwrap_or_default(),
+        }
+    }
+
+    fn elements_selected_by(&self, kind: ElementKind, by: SelectBy) -> Option<ElementSet> {
+        let distortion = if by == SelectBy::Distorted { self.distortion_of_faces()? } else { Vec::new() };
+        self.on_shown_mesh(|mesh| {
+            let selected = mesh.converted(self.selected_elements(), kind);
+            match by {
+                SelectBy::All => mesh.all(kind),
+                SelectBy::Invert => mesh.inverted(&selected),
+                SelectBy::Grow => mesh.grown(&selected),
+                SelectBy::Shrink => mesh.shrunk(&selected),
+                SelectBy::SharpEdges => mesh.up_to_sharp_edges(&selected, self.tools.seam.rules.degrees),
+                SelectBy::Connected => mesh.connected(&selected),
+                SelectBy::Loops => mesh.loops(&selected),
+                SelectBy::Rings => mesh.rings(&selected),
+                SelectBy::Boundary => mesh.boundary(kind),
+                SelectBy::Pins => mesh.converted(&ElementSet::of_vertices(self.pinned_vertices()), kind),
+                SelectBy::Distorted => mesh.greatest(kind, |face| distortion[face], WORST),
             }
         })
+    }
+
+    /// Pinned vertices of what is shown.
+    fn pinned_vertices(&self) -> Vec<VertexId> {
+        let document = self.session.document();
+        let Some(scene) = self.plane.page.scene().filter(|_| self.shows_page()) else {
+            return document.targets.keys().copied().collect();
+        };
+        let shown = self.session.chart_on_screen().map(|chart| (chart, &document.targets));
+        let others = document.elsewhere.iter().map(|(&chart, edits)| (chart, &edits.targets));
+        let all = others.filter(|(chart, _)| Some(*chart) != self.session.chart_on_screen()).chain(shown);
+        let on_page = |(chart, vertex): (usize, VertexId)| scene.of_chart(chart, vertex);
+        all.flat_map(|(chart, targets)| targets.keys().map(move |&vertex| (chart, vertex)))
+            .filter_map(on_page)
+            .collect()
+    }
+
+    /// Symmetric Dirichlet energy of each triangle of what is shown. `None` if it has no map.
+    fn distortion_of_faces(&self) -> Option<Vec<f64>> {
+        if self.shows_page() {
+            return Some(self.plane.page.scene()?.distortion());
+        }
+        let (outcome, scene) = (self.session.outcome()?, self.mesh_scene()?);
+        let faces = &outcome.distortion.faces;
+        let is_of_shown = faces.len() == scene.mesh().real_triangles().len();
+        is_of_shown.then(|| faces.iter().map(FaceDistortion::symmetric_dirichlet).collect())
     }
 
     fn is_chart_selected_by(&self, chart: usize, by: SelectBy) -> bool {

@@ -1,20 +1,26 @@
 //! Selection, element under the pointer, and active tool with its state: half a pair, a drag, a nudge.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use eframe::egui;
 use glam::DVec2;
 
+use super::drawn_elements::DrawnElements;
+use super::scene::MeshScene;
 use super::seam_hover::SeamHover;
 use super::seam_tool::SeamTool;
 use crate::session::Wake;
-use crate::ui::state::{BrushChoice, Half, Intent, Pane, PinDrag, Tool};
+use crate::ui::state::{BrushChoice, Half, Intent, Pane, PinDrag, SelectionKind, Tool};
+use crate::view::{EdgeList, ElementSet, MeshElement, Revision};
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::PinKind;
 
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
-    vertices: BTreeSet<VertexId>,
+    elements: DrawnElements,
+    /// Kind of elements or charts that clicks and regions select.
+    pub(super) kind: SelectionKind,
     /// Selected vertices of the file, kept while the scene of another preparation is made.
     of_file: BTreeSet<VertexId>,
     /// True if the selection is to be framed with that scene.
@@ -28,20 +34,37 @@ pub struct Selection {
 }
 
 impl Selection {
+    /// Selected vertices, or the vertices of the selected edges or faces.
     pub fn vertices(&self) -> &BTreeSet<VertexId> {
-        &self.vertices
+        self.elements().vertices()
+    }
+
+    /// Selected elements.
+    pub fn elements(&self) -> &ElementSet {
+        self.elements.get()
+    }
+
+    /// Kind of elements or charts that clicks and regions select.
+    pub fn kind(&self) -> SelectionKind {
+        self.kind
     }
 
     /// Selects exactly these vertices.
     pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
-        self.vertices = vertices.into_iter().collect();
+        self.select_elements(ElementSet::of_vertices(vertices));
+    }
+
+    /// Selects exactly these elements.
+    pub(super) fn select_elements(&mut self, elements: ElementSet) {
+        self.elements.set(elements);
         self.of_file.clear();
         self.is_framed_later = false;
     }
 
     /// Clears the vertices because the mesh has changed. Keeps their vertices of the file, if `in_file` returns any.
     pub(super) fn let_go(&mut self, in_file: impl Fn(VertexId) -> Option<VertexId>) {
-        self.of_file.extend(std::mem::take(&mut self.vertices).into_iter().filter_map(in_file));
+        self.of_file.extend(self.elements.get().vertices().iter().copied().filter_map(in_file));
+        self.elements.set(ElementSet::default());
     }
 
     /// Selects vertices of the file once the mesh that has them is on the screen. They are framed then.
@@ -53,32 +76,49 @@ impl Selection {
     /// Restores the selection from the kept vertices of the file. `copies` returns the vertices of the new mesh. Returns
     /// true if the selection is to be framed.
     pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) -> bool {
-        self.vertices.extend(std::mem::take(&mut self.of_file).into_iter().flat_map(copies));
-        self.is_framed_later && !self.vertices.is_empty()
+        let back: Vec<VertexId> = std::mem::take(&mut self.of_file).into_iter().flat_map(copies).collect();
+        if !back.is_empty() {
+            self.add(back);
+        }
+        self.is_framed_later && !self.vertices().is_empty()
     }
 
     /// True once if the selection is to be framed in the map, too, which follows the mesh.
     pub(super) fn is_map_due(&mut self) -> bool {
-        let is_due = self.is_framed_later && !self.vertices.is_empty();
+        let is_due = self.is_framed_later && !self.vertices().is_empty();
         self.is_framed_later &= !is_due;
         is_due
     }
 
-    /// Adds vertices to the selection.
+    /// Adds vertices to the selection. Selected edges or faces become their vertices.
     pub fn add(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
-        self.vertices.extend(vertices);
+        self.elements.change(|elements| elements.add_vertices(vertices));
     }
 
-    /// Adds a vertex to the selection, or removes it.
+    /// Adds a vertex to the selection, or removes it. Selected edges or faces become their vertices.
     pub(super) fn toggle(&mut self, vertex: VertexId) {
-        if !self.vertices.remove(&vertex) {
-            self.vertices.insert(vertex);
-        }
+        self.elements.change(|elements| elements.toggle_vertex(vertex));
     }
 
-    /// Keeps the vertices below a vertex count.
-    pub(super) fn keep_below(&mut self, vertex_count: usize) {
-        self.vertices.retain(|vertex| vertex.index() < vertex_count);
+    /// Keeps the elements that a mesh has. Faces of another mesh, which have other numbers, become their vertices.
+    pub(super) fn keep_on(&mut self, scene: &MeshScene) {
+        let is_there = |vertex: &VertexId| vertex.index() < scene.mesh().vertex_count();
+        let keeps_faces = self.elements().faces().is_empty() || self.lines(scene.arrays.revision).is_some();
+        if keeps_faces && self.vertices().iter().all(is_there) {
+            return;
+        }
+        let kept: Vec<VertexId> = self.vertices().iter().copied().filter(is_there).collect();
+        self.elements.set(ElementSet::of_vertices(kept));
+    }
+
+    /// Edges of the selection, to be drawn over the mesh with these arrays.
+    pub(in crate::ui) fn lines(&self, arrays: Revision) -> Option<&Arc<EdgeList>> {
+        self.elements.lines(arrays)
+    }
+
+    /// Finds the edges of the selection on a mesh, unless they are known.
+    pub(super) fn refresh_lines(&mut self, scene: &MeshScene) {
+        self.elements.refresh(scene.arrays.revision, || scene.elements());
     }
 
     /// Last shown defect, by its place in the list.
@@ -121,6 +161,8 @@ pub(in crate::ui) struct DrawnRegion {
 pub struct Pointer {
     pane: Option<Pane>,
     vertex: Option<VertexId>,
+    /// Edge or face that a click would select, on the chart on the screen or on the page.
+    element: Option<MeshElement>,
     in_embedding: Option<DVec2>,
     /// Vertex whose menu is or was open.
     menu_vertex: Option<VertexId>,
@@ -150,9 +192,18 @@ impl Pointer {
         self.menu_vertex = self.menu_vertex.filter(|vertex| vertex.index() < vertex_count);
     }
 
-    /// Clears the vertices of a mesh that no longer exists.
+    /// Clears the elements of a mesh that no longer exists.
     pub(super) fn forget_vertices(&mut self) {
-        (self.vertex, self.menu_vertex) = (None, None);
+        (self.vertex, self.menu_vertex, self.element) = (None, None, None);
+    }
+
+    /// Edge or face that a click would select, or a vertex of the page.
+    pub(in crate::ui) fn element(&self) -> Option<MeshElement> {
+        self.element
+    }
+
+    pub(in crate::ui) fn set_element(&mut self, element: Option<MeshElement>) {
+        self.element = element;
     }
 
     /// Position of the pointer in the plane of the embedding.
@@ -170,13 +221,14 @@ impl Pointer {
         self.vertex = vertex;
     }
 
+    /// Sets the vertex under the pointer in the mesh pane. Clears the element: set it after.
     pub(in crate::ui) fn over_mesh(&mut self, vertex: Option<VertexId>) {
-        (self.pane, self.vertex) = (Some(Pane::Mesh), vertex);
+        (self.pane, self.vertex, self.element) = (Some(Pane::Mesh), vertex, None);
     }
 
-    /// Sets the position of the pointer in the plane, and the vertex under it.
+    /// Sets the position of the pointer in the plane, and the vertex under it. Clears the element: set it after.
     pub(in crate::ui) fn over_plane(&mut self, place: Option<DVec2>, vertex: Option<VertexId>) {
-        (self.pane, self.in_embedding, self.vertex) = (Some(Pane::Plane), place, vertex);
+        (self.pane, self.in_embedding, self.vertex, self.element) = (Some(Pane::Plane), place, vertex, None);
     }
 
     /// Region being drawn in a pane, with the pointer as its newest point. A lasso or a stroke gets a point after each

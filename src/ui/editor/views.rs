@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::Editor;
 use super::defect::Defect;
+use super::page::LEAST_SHARE;
 use super::picture_box::picture_box;
 use crate::session::Action;
 use crate::view::{Sphere, part_around};
@@ -17,7 +18,7 @@ impl Editor {
     pub(super) fn frame(&mut self) {
         self.plane.comparison.frame();
         if self.shows_page() {
-            return self.frame_charts();
+            return self.frame_page();
         }
         let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
@@ -34,13 +35,20 @@ impl Editor {
         }
     }
 
-    /// Frames the selected charts in both panes, or everything.
-    fn frame_charts(&mut self) {
-        let selected = self.plane.page.selected().clone();
-        self.plane.page.frame(&selected);
+    /// Frames the selected charts or elements of the page in both panes, or everything.
+    fn frame_page(&mut self) {
+        self.plane.page.frame_selection();
         let (Some(page), Some(scene)) = (self.plane.page.scene(), self.mesh.scene()) else { return };
-        let points = page.points_of(selected.iter().copied());
-        let ball = if points.is_empty() { scene.sphere } else { Sphere::around(&points) };
+        let points = page.points_of(self.plane.page.selected().iter().copied());
+        let of_elements = page.positions_of(self.plane.page.elements().vertices());
+        let ball = if points.is_empty() && of_elements.is_empty() {
+            scene.sphere
+        } else if points.is_empty() {
+            let Sphere { center, radius } = Sphere::around(&of_elements);
+            Sphere { center, radius: radius.clamp(LEAST_SHARE * scene.sphere.radius, scene.sphere.radius) }
+        } else {
+            Sphere::around(&points)
+        };
         self.mesh.frame(ball);
     }
 

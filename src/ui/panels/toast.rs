@@ -1,4 +1,4 @@
-//! Success message about written files, over the lower edge of the panes for a few seconds.
+//! Success message about written files, or remark on something that was not done, over the lower edge of the panes for a few seconds.
 
 use std::time::Duration;
 
@@ -19,10 +19,10 @@ const GAP: f32 = 12.0;
 /// Greatest width of the message, points.
 const WIDTH: f32 = 440.0;
 
-/// Shows the newest success message, and dismisses it when its time is over. It stays while it is under the pointer
+/// Shows the newest success message or remark, and dismisses it when its time is over. It stays while it is under the pointer
 /// or one of its buttons has the focus.
 pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    let newest = editor.session.messages().iter().rfind(|message| message.severity == Severity::Note).cloned();
+    let newest = editor.session.messages().iter().rfind(|message| message.severity != Severity::Error).cloned();
     let Some(message) = newest else {
         editor.layout.toast = None;
         return;
@@ -62,11 +62,13 @@ fn panes(context: &egui::Context, editor: &Editor) -> Rect {
 /// Text and buttons of the message. Returns true if a button has the focus.
 fn contents(ui: &mut egui::Ui, message: &Message, width: f32, requests: &mut Vec<Request>) -> bool {
     let theme = theme_of(ui);
-    let frame = egui::Frame::popup(ui.style()).fill(theme.panel.lerp_to_gamma(theme.planar, 0.14)).inner_margin(10);
+    let sign = if message.severity == Severity::Note { Sign::Good } else { Sign::Warning };
+    let tint = theme.panel.lerp_to_gamma(sign.colour(theme), 0.14);
+    let frame = egui::Frame::popup(ui.style()).fill(tint).inner_margin(10);
     let row = |ui: &mut egui::Ui| {
         ui.set_max_width(width);
         let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
-        icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), Sign::Good, theme);
+        icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, theme);
         let words_and_buttons = |ui: &mut egui::Ui| {
             ui.add(egui::Label::new(sentence(&message.text)).wrap());
             ui.horizontal(|ui| buttons(ui, message, requests)).inner

@@ -2,15 +2,23 @@
 
 use eframe::egui::{self, Role};
 
-use crate::ui::{Control, Editor, Measure, PageRequest, Pane, Request, ShadingMode, open_list, tip_with_keys};
+use crate::ui::{
+    Control, Editor, Measure, PageRequest, Pane, Request, SelectionKind, ShadingMode, Tool, open_list, tip_with_keys,
+};
 
 use super::checker;
 
 /// Least width of a pane with a title in its header, points.
 const ROOM_FOR_TITLE: f32 = 270.0;
 
+/// Least width of a pane with the list of what clicks select in its header, points. The Edit menu has it, too.
+const ROOM_FOR_KIND: f32 = 330.0;
+
 /// Least width of a pane with switches in its header, points. Keys and the View menu have them, too.
 const ROOM_FOR_SWITCHES: f32 = 190.0;
+
+/// Width of the list of what clicks select, points.
+const KIND_WIDTH: f32 = 72.0;
 
 /// Least width of the shading menu in the header, points. The View menu has the shadings, too.
 const LEAST_MENU: f32 = 60.0;
@@ -29,6 +37,9 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
         }
         if pane == Pane::Plane && editor.session.charts().is_some() {
             page_switch(ui, editor, requests);
+        }
+        if room >= ROOM_FOR_KIND && (pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane)) {
+            kind_menu(ui, editor, requests);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(4.0);
@@ -79,6 +90,26 @@ fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<R
         let wire = ui.selectable_label(editor.pane_shading.wireframe, "Wire").on_hover_text(tip);
         wire.asks(Request::ToggleWireframe, requests);
     }
+}
+
+/// List of what clicks select, if the tool selects.
+fn kind_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    if editor.tools.tool() != Tool::Select || editor.session.model().is_none() {
+        return;
+    }
+    let now = editor.selection_kind_shown();
+    let list = open_list(ui, "What clicks select", KIND_WIDTH, now.words()[0], |ui| {
+        let has_charts = editor.session.charts().is_some();
+        for kind in SelectionKind::ALL.into_iter().filter(|kind| has_charts || *kind != SelectionKind::Charts) {
+            let [title, about] = kind.words();
+            let request = Request::SetSelectionKind(kind);
+            let tip = tip_with_keys(ui, about, &request);
+            if ui.selectable_label(now == kind, title).on_hover_text(tip).asks(request, requests) {
+                ui.close();
+            }
+        }
+    });
+    list.on_hover_text("What clicks and regions select");
 }
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Response};
 use glam::{DVec2, DVec3};
 
+use super::elements::{self, Surface};
 use super::pane;
 use super::pins::{self, Emphasis, PinMark};
 use super::region::draw_region;
@@ -15,16 +16,13 @@ use crate::ui::editor::picture_box::picture_box;
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::state::{Viewport, in_pane, size_of};
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, Tool, theme_of};
-use crate::view::{EdgeList, OrbitCamera, Ray, Visibility};
+use crate::view::{EdgeList, ElementKind, OrbitCamera, Ray, Visibility};
 use freebound_core::mesh::{Seams, VertexId};
-
-/// Opacity of the mark of a selected vertex that the mesh hides.
-const HIDDEN: f32 = 0.4;
 
 /// Opacity of faces over a picture.
 const THIN_FILL: f32 = 0.3;
 
-/// Greatest number of marks for a large selection.
+/// Greatest number of marks of new vertices.
 const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -58,6 +56,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         let pick = pick.filter(|_| editor.is_of_session(&scene));
         let ray = camera.ray(pointer, editor.mesh.pane.size());
         editor.pointer.over_mesh(pick.map(|pick| scene.on_side_at(pick.vertex, ray)));
+        find_element(editor, &scene, Viewport { rect, camera }, response.hover_pos());
         if editor.tools.tool() == Tool::Seam {
             editor.pick_seam_vertex(&scene, &camera, pointer);
         }
@@ -65,15 +64,13 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     }
     let view = Viewport { rect, camera };
     if let Some(region) = draw_region(ui, &response, editor, Pane::Mesh) {
-        let inside = |vertex: &VertexId| {
-            let at = view.spot(scene.mesh().positions[vertex.index()]);
-            let is_seen = || editor.selection.through || scene.picker.is_visible(*vertex, camera.eye());
-            at.is_some_and(|at| region.contains(at)) && is_seen()
-        };
-        requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
+        let kind = editor.kind_under_pointer().unwrap_or_default();
+        let inside = Surface::of_chart(&scene).inside(kind, view, &region, elements::visibility(editor));
+        requests.push(Request::AddElements(inside));
     }
     let ray = response.hover_pos().map(|at| camera.ray(in_pane(rect, at), editor.mesh.pane.size()));
-    let is_free = editor.pointer.vertex().is_none() && editor.tools.tool() != Tool::Seam;
+    let has_element = editor.pointer.vertex().is_some() || editor.pointer.element().is_some();
+    let is_free = !has_element && editor.tools.tool() != Tool::Seam;
     match ray.filter(|_| is_free).and_then(|ray| scene.other_chart_at(ray)) {
         Some(chart) => other_chart(ui, &response, chart, requests),
         None => pane::click(ui, &response, editor, requests),
@@ -87,6 +84,16 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     legend::legend(ui, rect, editor, Pane::Mesh);
     legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene, requests);
+}
+
+/// Sets the edge or face under the pointer, if clicks select them.
+fn find_element(editor: &mut Editor, scene: &MeshScene, view: Viewport<OrbitCamera>, at: Option<Pos2>) {
+    let kind = editor.kind_under_pointer().filter(|kind| *kind != ElementKind::Vertices);
+    let kind = kind.filter(|_| editor.is_of_session(scene));
+    if let Some((kind, at)) = kind.zip(at) {
+        let found = Surface::of_chart(scene).element_at(kind, view, at, elements::visibility(editor));
+        editor.pointer.set_element(found);
+    }
 }
 
 /// Words of a pane without a mesh.
@@ -173,6 +180,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     let plane = editor.plane.result().map(|plane| Arc::clone(&plane.arrays));
     let shows_given = editor.mesh.scene().is_some_and(|given| std::ptr::eq(Arc::as_ptr(given), scene));
     let mut lines = vec![boundary_line(scene, theme), seam_line(&scene.seams, theme)];
+    lines.extend(editor.selection.lines(scene.arrays.revision).map(|edges| elements::line_of(edges, theme)));
     if shows_given {
         let line = |edges: &Arc<EdgeList>, colour, width_in_points| LineLayer {
             edges: Arc::clone(edges),
@@ -323,12 +331,10 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
         }
     }
-    for (at, is_seen) in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| place(vertex)) {
-        // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
-        let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
-        pane::dot(&painter, at, colour);
-    }
-    if let Some((vertex, at)) = editor.pointer.vertex().and_then(|vertex| Some((vertex, seen(vertex)?))) {
+    elements::dots(&painter, editor.selection.elements(), theme, place);
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, seen);
+    let vertex = editor.pointer.vertex().filter(|_| editor.pointer.element().is_none());
+    if let Some((vertex, at)) = vertex.and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}

@@ -5,6 +5,7 @@
 //! | `header.rs` | the header of a pane: title, shading, switches |
 //! | `pane.rs` | common parts of both panes: positions on the screen, clicks, the wheel, marks of defects |
 //! | `region.rs` | box or lasso that selects what lies in it |
+//! | `elements.rs` | vertices, edges and faces: under the pointer, in a region, selected |
 //! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
@@ -28,6 +29,7 @@ mod brush;
 mod checker;
 pub(super) mod comparison;
 pub(super) mod constrain;
+mod elements;
 mod header;
 pub(super) mod inset;
 mod legend;

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Stroke, Vec2};
 use glam::DVec2;
 
-use super::region::draw_region;
+use super::elements::{self, Plane, Surface};
+use super::region::{Region, draw_region};
 use super::{brush, legend, mesh_pane, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
 use crate::session::ChartPage;
@@ -15,6 +16,7 @@ use crate::ui::state::{GestureKind, PageGesture, PageRequest, Viewport, in_pane,
 use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of};
 use crate::view::{EdgeList, OrbitCamera, PlaneCamera};
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, corner_of_tile};
+use freebound_core::mesh::VertexId;
 
 /// Greatest number of edges of outlines that a kept-back move draws.
 const EDGES_SHOWN: usize = 20_000;
@@ -43,8 +45,12 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     let place = pointer.filter(|_| response.hovered() || response.contains_pointer()).map(|at| view.point_at(at));
     if response.hovered() || response.contains_pointer() {
         editor.pointer.over_plane(place, None);
+        if let Some((kind, at)) = editor.kind_under_pointer().zip(pointer) {
+            editor.pointer.set_element(Plane::of_page(&scene).element_at(kind, view, at));
+        }
         let chart = match editor.session.page_stroke() {
             Some(stroke) => Some(stroke.chart()),
+            None if editor.kind_under_pointer().is_some() => None,
             None if brushes => place.and_then(|at| scene.chart_near(at, brush::radius_in_plane(editor, view))),
             None => place.and_then(|at| scene.chart_at(at)),
         };
@@ -60,13 +66,12 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     if brushes {
         brush::over_page(ui, response, view, editor, requests);
     } else if let Some(region) = draw_region(ui, response, editor, Pane::Plane) {
-        let mut charts = scene.charts_within(|at| region.contains(view.spot(at)));
-        charts.extend(region.line().into_iter().filter_map(|at| scene.chart_at(view.point_at(at))));
-        requests.push(PageRequest::Add(charts).into());
+        requests.push(within(view, &region, editor, &scene));
     }
     if !brushes {
         click(ui, response, editor, requests);
     }
+    element_marks(ui, view, editor, &scene);
     tiles(ui, view, editor, &scene);
     kept_back(ui, view, editor, &scene);
     gesture_note(ui, rect, editor);
@@ -74,6 +79,24 @@ pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edit
     if legend::plane_has_own(editor) {
         legend::legend(ui, rect, editor, Pane::Plane);
     }
+}
+
+/// Request that selects what lies in a region of the page: charts, or elements.
+fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, scene: &PageScene) -> Request {
+    if let Some(kind) = editor.kind_under_pointer() {
+        return Request::AddElements(Plane::of_page(scene).inside(kind, view, region));
+    }
+    let mut charts = scene.charts_within(|at| region.contains(view.spot(at)));
+    charts.extend(region.line().into_iter().filter_map(|at| scene.chart_at(view.point_at(at))));
+    PageRequest::Add(charts).into()
+}
+
+/// Selected vertices, and the element under the pointer.
+fn element_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene: &PageScene) {
+    let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
+    let spot = |vertex: VertexId| Some(view.spot(scene.place_of(vertex)?));
+    elements::dots(&painter, editor.plane.page.elements(), theme, |vertex| Some((spot(vertex)?, true)));
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, spot);
 }
 
 /// Press of the left button on a chart, which moves the selected charts and not the camera.
@@ -93,6 +116,7 @@ impl Grip {
         let is_boxing = ui.input(|input| input.modifiers.command || input.modifiers.shift);
         if editor.plane.page.gesture().is_none()
             && !brush::takes_drags(editor)
+            && editor.kind_under_pointer().is_none()
             && response.drag_started_by(PointerButton::Primary)
             && !is_boxing
         {
@@ -131,6 +155,9 @@ fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut
         }
         return;
     }
+    if editor.kind_under_pointer().is_some() {
+        return element_click(ui, response, editor, requests);
+    }
     let chart = editor.plane.page.hovered();
     if response.double_clicked() && chart.is_some() {
         requests.push(PageRequest::Open(chart).into());
@@ -140,6 +167,16 @@ fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut
     }
     if response.hovered() && chart.is_some() {
         ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+    }
+}
+
+/// Clicks on elements: a click selects one; a double click shows its chart alone.
+fn element_click(ui: &egui::Ui, response: &Response, editor: &Editor, requests: &mut Vec<Request>) {
+    let chart = editor.chart_of_element();
+    if response.double_clicked() && chart.is_some() {
+        requests.push(PageRequest::Open(chart).into());
+    } else {
+        elements::click(ui, response, editor, requests);
     }
 }
 
@@ -157,29 +194,61 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
     }
     if let Some(pointer) = response.hover_pos().map(|at| in_pane(rect, at)) {
         editor.pointer.over_mesh(None);
-        editor.plane.page.set_hovered(scene.chart_hit(camera.ray(pointer, size_of(rect))));
+        let kind = editor.kind_under_pointer();
+        let chart = || scene.chart_hit(camera.ray(pointer, size_of(rect)));
+        editor.plane.page.set_hovered(if kind.is_none() { chart() } else { None });
+        if let Some((kind, at)) = kind.zip(response.hover_pos()) {
+            let (surface, visibility) = (Surface::of_page(&scene), elements::visibility(editor));
+            editor.pointer.set_element(surface.element_at(kind, Viewport { rect, camera }, at, visibility));
+        }
         if editor.plane.page.hovered().is_some() {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
     }
+    let view = Viewport { rect, camera };
     if let Some(region) = draw_region(ui, response, editor, Pane::Mesh) {
-        let view = Viewport { rect, camera };
-        let is_in_region = |at| view.spot(at).is_some_and(|at| region.contains(at));
-        let eye = (!editor.selection.through).then(|| camera.eye());
-        let is_inside = |chart: &usize| scene.has_vertex_within(*chart, eye, is_in_region);
-        let mut charts: Vec<usize> = (0..scene.spans.len()).filter(is_inside).collect();
-        let under = |at| scene.chart_hit(camera.ray(in_pane(rect, at), size_of(rect)));
-        charts.extend(region.line().into_iter().filter_map(under));
-        requests.push(PageRequest::Add(charts).into());
+        requests.push(within_mesh(view, &region, editor, &scene));
     }
-    if response.clicked() && editor.plane.page.gesture().is_none() {
+    if editor.kind_under_pointer().is_some() {
+        elements::click(ui, response, editor, requests);
+    } else if response.clicked() && editor.plane.page.gesture().is_none() {
         let adds = ui.input(|input| input.modifiers.shift);
         requests.push(PageRequest::Pick { chart: editor.plane.page.hovered(), adds }.into());
     }
     if editor.gpu.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, mesh_frame(editor, &scene, camera, theme_of(ui))));
     }
+    element_marks_on_mesh(ui, view, editor, &scene);
     legend::legend(ui, rect, editor, Pane::Mesh);
+}
+
+/// Request that selects what is seen in a region of the mesh pane: charts, or elements.
+fn within_mesh(view: Viewport<OrbitCamera>, region: &Region, editor: &Editor, scene: &PageScene) -> Request {
+    let (rect, camera) = (view.rect, view.camera);
+    if let Some(kind) = editor.kind_under_pointer() {
+        let (surface, visibility) = (Surface::of_page(scene), elements::visibility(editor));
+        return Request::AddElements(surface.inside(kind, view, region, visibility));
+    }
+    let is_in_region = |at| view.spot(at).is_some_and(|at| region.contains(at));
+    let eye = (!editor.selection.through).then(|| camera.eye());
+    let is_inside = |chart: &usize| scene.has_vertex_within(*chart, eye, is_in_region);
+    let mut charts: Vec<usize> = (0..scene.spans.len()).filter(is_inside).collect();
+    let under = |at| scene.chart_hit(camera.ray(in_pane(rect, at), size_of(rect)));
+    charts.extend(region.line().into_iter().filter_map(under));
+    PageRequest::Add(charts).into()
+}
+
+/// Selected vertices, and the element under the pointer, in the mesh pane.
+fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &PageScene) {
+    let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
+    let (picker, eye) = (scene.surface_picker(), view.camera.eye());
+    let place = |vertex: VertexId| {
+        let at = view.spot(*picker.positions().get(vertex.index())?)?;
+        Some((at, picker.is_visible(vertex, eye)))
+    };
+    elements::dots(&painter, editor.plane.page.elements(), theme, place);
+    let seen = |vertex| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, seen);
 }
 
 /// Lines of the outlines: all, those under the pointer, and those that are selected.
@@ -191,6 +260,7 @@ fn lines(editor: &Editor, scene: &PageScene, theme: &Theme, colour: crate::view:
     };
     let mut lines = vec![line(&scene.outlines, colour, 1.5)];
     lines.extend(editor.plane.page.hovered_outlines().map(|edges| line(edges, theme.selection_line, 2.0)));
+    lines.extend(editor.plane.page.element_lines().map(|edges| elements::line_of(edges, theme)));
     lines.extend(editor.plane.page.selected_outlines().map(|edges| line(edges, theme.selection_line, 3.0)));
     lines
 }

@@ -4,6 +4,7 @@
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
 
+use super::elements;
 use super::outside_hull::{self, MARKS_SHOWN};
 use super::seam;
 use crate::session::Action;
@@ -11,7 +12,7 @@ use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::round_joins::closed_line;
 use crate::ui::state::Viewport;
 use crate::ui::{Control, Editor, Request, Theme, Tool, theme_of};
-use crate::view::PlaneCamera;
+use crate::view::{ElementKind, PlaneCamera};
 use freebound_core::geom::{Bounds, clip_segment};
 use freebound_core::mesh::VertexId;
 
@@ -82,6 +83,9 @@ fn within(rect: Rect, ends: [Pos2; 2]) -> Option<[Pos2; 2]> {
 
 /// Handles a click with the active tool, and sets the cursor for it.
 pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    if editor.kind_under_pointer().is_some_and(|kind| kind != ElementKind::Vertices) {
+        return elements::click(ui, response, editor, requests);
+    }
     if response.clicked() {
         requests.extend(clicked(ui, editor));
     }

@@ -126,10 +126,11 @@ impl Editor {
         planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
     }
 
-    /// Selected vertices that the user has pinned.
+    /// Selected vertices of the chart on the screen that the user has pinned; none on the page.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
-        let targets = &self.session.document().targets;
-        self.selection.vertices().iter().copied().filter(|vertex| targets.contains_key(vertex))
+        let targets = Some(&self.session.document().targets).filter(|_| !self.shows_page());
+        let is_pin = move |vertex: &VertexId| targets.is_some_and(|targets| targets.contains_key(vertex));
+        self.selection.vertices().iter().copied().filter(is_pin)
     }
 }
 

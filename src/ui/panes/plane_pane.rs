@@ -5,6 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Rect, Response};
 use glam::DVec2;
 
+use super::elements::{self, Plane};
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
@@ -19,12 +20,9 @@ use crate::ui::editor::scene::PlaneScene;
 use crate::ui::panels::equation_table;
 use crate::ui::state::{Viewport, in_pane, size_of};
 use crate::ui::{Control, Editor, HullScene, HullStage, Pane, Request, Theme, Tool, theme_of};
-use crate::view::PlaneCamera;
+use crate::view::{ElementKind, PlaneCamera};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Surface;
-
-/// Greatest number of marks for a large selection.
-const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     header::header(ui, editor, Pane::Plane, requests);
@@ -72,7 +70,7 @@ fn chart_ui(ui: &mut egui::Ui, rect: Rect, response: &Response, editor: &mut Edi
     if !brush::takes_drags(editor)
         && let Some(region) = draw_region(ui, response, editor, Pane::Plane)
     {
-        requests.push(Request::AddToSelection(within(view, &region, editor, &plane)));
+        requests.push(within(view, &region, editor, &plane));
     }
     pane::click(ui, response, editor, requests);
     vertex_menu::of_pane(response, editor, requests);
@@ -107,6 +105,10 @@ fn pick(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, plane: 
     let nearest = |at| plane.picker.nearest_vertex(&camera, size_of(rect), in_pane(rect, at));
     let pick = pointer.and_then(nearest);
     editor.pointer.over_plane(pointer.map(|at| view.point_at(at)), grip.or(pick.map(|pick| pick.vertex)));
+    let kind = editor.kind_under_pointer().filter(|kind| *kind != ElementKind::Vertices && grip.is_none());
+    if let Some((kind, at)) = kind.zip(pointer) {
+        editor.pointer.set_element(Plane::of_chart(plane).element_at(kind, view, at));
+    }
     editor.aim(ui, Pane::Plane, grip);
     if editor.tools.tool() == Tool::Seam {
         editor.pick_seam_vertex_in_plane(&plane.mesh);
@@ -159,17 +161,21 @@ pub(super) fn zoom(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera)
     }
 }
 
-/// Vertices inside a region of the screen, and vertices with targets inside it.
-fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
-    let is_inside = |z: DVec2| region.contains(view.spot(z));
-    let inside = plane.mesh.vertices().filter(|&vertex| plane.position_of(vertex).is_some_and(is_inside));
-    let pins = editor.pins_shown().into_iter().filter(|pin| is_inside(pin.target));
-    inside.chain(pins.map(|pin| pin.vertex)).collect()
+/// Request that selects the elements inside a region of the screen, and vertices with targets inside it.
+fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, plane: &PlaneScene) -> Request {
+    let kind = editor.kind_under_pointer().unwrap_or_default();
+    let inside = Plane::of_chart(plane).inside(kind, view, region);
+    if kind != ElementKind::Vertices {
+        return Request::AddElements(inside);
+    }
+    let pins = editor.pins_shown().into_iter().filter(|pin| region.contains(view.spot(pin.target)));
+    Request::AddToSelection(inside.vertices().iter().copied().chain(pins.map(|pin| pin.vertex)).collect())
 }
 
 pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
     let hull = editor.plane.hull_scene();
     let mut lines = vec![boundary_line(&plane.mesh, theme), seam_line(&plane.mesh.seams, theme)];
+    lines.extend(editor.selection.lines(plane.mesh.arrays.revision).map(|edges| elements::line_of(edges, theme)));
     lines.extend(hull.into_iter().flat_map(|scene| scene.lines(theme)));
     let mut style = style(editor, Pane::Plane);
     if plane.is_stage() && style.shading == render::FaceShading::Paint {
@@ -216,15 +222,15 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
         constrain::preview(ui, view, editor, plane);
         seam::over_plane(ui, view, editor, plane);
     }
-    for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
-        pane::dot(&over, spot(vertex), theme.selection);
-    }
+    let seen = |vertex: VertexId| Some(view.spot(plane.position_of(vertex)?));
+    elements::dots(&over, editor.selection.elements(), theme, |vertex| Some((seen(vertex)?, true)));
+    elements::mark_under_pointer(&over, editor.pointer.element(), &plane.mesh.elements(), theme, seen);
     if editor.is_of_session(&plane.mesh) {
         for side in editor.tools.seam_hover.sides() {
             over.line_segment(side.map(spot), pane::seam_stroke(theme));
         }
     }
-    if let Some(vertex) = editor.pointer.vertex() {
+    if let Some(vertex) = editor.pointer.vertex().filter(|_| editor.pointer.element().is_none()) {
         // At a cut, mark the copies on both sides.
         let copies = plane.mesh.in_file.vertex(vertex).into_iter().flat_map(|of| plane.mesh.in_file.copies(of));
         copies.filter(|copy| *copy != vertex).for_each(|copy| pane::halo(&over, spot(copy), theme.selection, 4.0));

@@ -11,7 +11,7 @@
 //! | `checker.rs` | squares of the checker, requests to change it |
 //! | `comparison.rs` | requests to the comparison of methods and its morph |
 //! | `hull_stage.rs` | stages of the virtual boundary |
-//! | `select_by.rs` | ways to select vertices by mesh, map and selection |
+//! | `select_by.rs` | what is selected, and ways to select by mesh, map and selection |
 //! | `seam.rs` | clicks of the seam tool, rules that choose edges |
 //! | `unsaved.rs` | the question about unsaved work |
 //! | `help.rs` | windows that help: command palette, list of keys, messages, About |
@@ -67,7 +67,7 @@ pub(in crate::ui) use pin_drag::PinDrag;
 pub use request::{Request, StepTarget};
 pub(in crate::ui) use seam::Edge;
 pub use seam::{SeamClick, SeamRule};
-pub use select_by::SelectBy;
+pub use select_by::{SelectBy, SelectionKind};
 pub use shading_mode::ShadingMode;
 pub(in crate::ui) use timeline_view::{CURVE_COUNT, ROW_HEIGHT, TimelineView};
 pub use timeline_view::{CurveRequest, CurvesExport};

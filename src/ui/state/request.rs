@@ -12,13 +12,13 @@ use super::inset_view::InsetPan;
 use super::page::PageRequest;
 use super::pane::{Pane, Tab};
 use super::seam::{SeamClick, SeamRule};
-use super::select_by::SelectBy;
+use super::select_by::{SelectBy, SelectionKind};
 use super::shading_mode::ShadingMode;
 use super::timeline_view::CurveRequest;
 use super::tool::Tool;
 use super::unsaved::UnsavedAnswer;
 use crate::session::Action;
-use crate::view::Quantity;
+use crate::view::{ElementSet, MeshElement, Quantity};
 use freebound_core::mesh::{FaceId, VertexId};
 use freebound_core::pipeline::Fit;
 use freebound_core::problem::{PinKind, Variant};
@@ -131,6 +131,23 @@ pub enum Request {
     AddToSelection(Vec<VertexId>),
     /// Adds a vertex to the selection, or removes it.
     ToggleSelected(VertexId),
+    /// Sets what clicks and regions select.
+    SetSelectionKind(SelectionKind),
+    /// Selects an element of the page or of the chart on the screen.
+    SelectElement {
+        /// The element.
+        element: MeshElement,
+        /// True to add it to the selection, or to remove it.
+        adds: bool,
+    },
+    /// Selects nothing on the page or on the chart on the screen.
+    SelectNothing,
+    /// Adds elements of the page or of the chart on the screen to the selection.
+    AddElements(ElementSet),
+    /// Cuts the mesh along the selected edges, or around the selected faces.
+    CutSelection,
+    /// Closes the seams along the selected edges.
+    JoinSelection,
     /// Removes the selected pins.
     UnpinSelected,
     /// Moves the selected pins by pixels of the picture; y points up.

@@ -177,7 +177,7 @@ fn an_export_is_cancelled_and_leaves_nothing() {
     settled(&mut session, Action::Cancel);
     assert!(!folder.path().join("large.png").exists());
     let message = session.messages().last().expect("a note");
-    assert!(message.text.contains("large.png") && message.severity == Severity::Note, "{message:?}");
+    assert!(message.text.contains("large.png") && message.severity == Severity::Caution, "{message:?}");
 }
 
 #[test]

@@ -57,8 +57,12 @@ impl Editor {
             PageRequest::Show(is_wanted) => self.show_page(is_wanted),
             PageRequest::Toggle if self.session.charts().is_none() => {}
             PageRequest::Toggle => self.show_page(!(self.shows_page() || self.awaits_page())),
-            PageRequest::Pick { chart, adds } => self.pick_chart(chart, adds),
+            PageRequest::Pick { chart, adds } => {
+                self.select_charts_of_elements();
+                self.pick_chart(chart, adds);
+            }
             PageRequest::Add(charts) => {
+                self.select_charts_of_elements();
                 let charts: Vec<usize> = self.plane.page.selected().iter().copied().chain(charts).collect();
                 self.plane.page.select(charts);
             }
@@ -124,6 +128,11 @@ impl Editor {
 
     /// Shows a chart alone, to work on its vertices.
     fn open_chart(&mut self, chart: Option<usize>) {
+        if !self.plane.page.elements().is_empty()
+            && let Some(chart) = chart.or(self.charts_of_elements().first().copied())
+        {
+            return self.open_chart_with_elements(chart);
+        }
         let Some(chart) = chart.or(self.plane.page.selected().first().copied()) else { return };
         self.drop_gesture();
         self.plane.page.is_wanted = false;

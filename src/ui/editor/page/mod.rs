@@ -15,6 +15,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use eframe::egui;
+use glam::DVec2;
 
 pub(in crate::ui) use self::scene::PageScene;
 
@@ -22,13 +23,18 @@ use self::scene::{PageKey, PageSpace};
 use super::async_scene::AsyncScene;
 use super::checker::ALONG_PAGE;
 use super::colour_table::ShownColumn;
+use super::drawn_elements::DrawnElements;
 use super::paint::Legend;
 use super::scene::MeshScene;
 use crate::session::{ChartMove, JobFailure, Session, Wake};
 use crate::ui::state::{PageGesture, Pane, PaneView, ShadingMode, Snap};
-use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
+use crate::view::{EdgeList, ElementSet, FacePaint, PlaneArrays, PlaneCamera};
 use freebound_core::geom::Bounds;
+use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
+
+/// Least half of a framed part of the page or of the mesh, relative to the whole.
+pub(super) const LEAST_SHARE: f64 = 0.05;
 
 /// Page in the window.
 #[derive(Debug)]
@@ -41,15 +47,42 @@ pub struct PageView {
     is_wanted: bool,
     scene: Option<Arc<PageScene>>,
     job: AsyncScene<PageKey, PageScene>,
-    selected: Outlined,
-    /// Chart under the pointer, in either pane.
-    hovered: Outlined,
+    selection: PageSelection,
     gesture: Option<PageGesture>,
     /// Movements of the last frame of a gesture, and true if charts may overlap there.
     asked: Option<(Vec<ChartMove>, bool)>,
     moved: Option<MovedPlane>,
     snap: Snap,
     paints: [Option<PagePaint>; 2],
+}
+
+/// Selection on the page.
+#[derive(Debug, Default)]
+struct PageSelection {
+    charts: Outlined,
+    /// Chart under the pointer, in either pane.
+    hovered: Outlined,
+    /// Vertices, edges or faces, by their numbers on the scene.
+    elements: DrawnElements,
+}
+
+impl PageSelection {
+    /// Keeps the charts that a scene has, and the elements if the mesh is cut as before. Elements of steps with other
+    /// new vertices become their vertices.
+    fn keep_on(&mut self, scene: &PageScene, before: Option<&PageScene>) {
+        let count = scene.spans.len();
+        for outlined in [&mut self.charts, &mut self.hovered] {
+            outlined.charts.retain(|&chart| chart < count);
+        }
+        let before = before.filter(|before| before.is_cut_like(scene));
+        if before.is_some_and(|before| before.has_numbers_of(scene)) {
+            return;
+        }
+        let place = |vertex: &VertexId| before?.on_chart(*vertex);
+        let places = self.elements.get().vertices().iter().filter_map(place);
+        let kept: Vec<VertexId> = places.filter_map(|(chart, vertex)| scene.of_chart(chart, vertex)).collect();
+        self.elements.set(ElementSet::of_vertices(kept));
+    }
 }
 
 /// Set of charts, with their outlines on a scene.
@@ -113,8 +146,7 @@ impl PageView {
             is_wanted: true,
             scene: None,
             job: AsyncScene::new("page scene", wake),
-            selected: Outlined::default(),
-            hovered: Outlined::default(),
+            selection: PageSelection::default(),
             gesture: None,
             asked: None,
             moved: None,
@@ -130,17 +162,27 @@ impl PageView {
 
     /// Selected charts.
     pub fn selected(&self) -> &BTreeSet<usize> {
-        &self.selected.charts
+        &self.selection.charts.charts
+    }
+
+    /// Selected vertices, edges or faces of the page, by their numbers on the scene.
+    pub fn elements(&self) -> &ElementSet {
+        self.selection.elements.get()
+    }
+
+    /// Edges of the selected elements.
+    pub(in crate::ui) fn element_lines(&self) -> Option<&Arc<EdgeList>> {
+        self.selection.elements.lines(self.scene.as_ref()?.mesh.revision)
     }
 
     /// Chart under the pointer.
     pub fn hovered(&self) -> Option<usize> {
-        self.hovered.charts.first().copied()
+        self.selection.hovered.charts.first().copied()
     }
 
     pub(in crate::ui) fn set_hovered(&mut self, chart: Option<usize>) {
         if self.hovered() != chart {
-            self.hovered = Outlined::of(chart, self.count());
+            self.selection.hovered = Outlined::of(chart, self.count());
         }
     }
 
@@ -177,12 +219,12 @@ impl PageView {
 
     /// Outlines of the selected charts.
     pub(in crate::ui) fn selected_outlines(&self) -> Option<&Arc<EdgeList>> {
-        self.selected.outlines.as_ref().map(|(_, outlines)| outlines)
+        self.selection.charts.outlines.as_ref().map(|(_, outlines)| outlines)
     }
 
     /// Outlines of the chart under the pointer.
     pub(in crate::ui) fn hovered_outlines(&self) -> Option<&Arc<EdgeList>> {
-        self.hovered.outlines.as_ref().map(|(_, outlines)| outlines)
+        self.selection.hovered.outlines.as_ref().map(|(_, outlines)| outlines)
     }
 
     /// Side length of a check: the height of the page divided by the chosen number, or a power of two of the height
@@ -221,7 +263,7 @@ impl PageView {
     /// Drops the page of a document that is no longer open.
     pub(super) fn forget(&mut self) {
         (self.scene, self.moved, self.gesture, self.framed) = (None, None, None, None);
-        (self.selected, self.hovered) = (Outlined::default(), Outlined::default());
+        self.selection = PageSelection::default();
         self.pane.forget_camera();
         self.job.cancel();
         self.is_wanted = true;
@@ -246,16 +288,17 @@ impl PageView {
             self.job.make(key, move |_| PageScene::new(key, &page, space, before.as_deref()));
         }
         self.refresh_moved(session);
-        for outlined in [&mut self.selected, &mut self.hovered] {
+        let PageSelection { charts, hovered, elements } = &mut self.selection;
+        for outlined in [charts, hovered] {
             outlined.refresh(self.scene.as_deref());
+        }
+        if let Some(scene) = &self.scene {
+            elements.refresh(scene.mesh.revision, || scene.elements());
         }
     }
 
     fn take(&mut self, scene: PageScene) {
-        let count = scene.spans.len();
-        for outlined in [&mut self.selected, &mut self.hovered] {
-            outlined.charts.retain(|&chart| chart < count);
-        }
+        self.selection.keep_on(&scene, self.scene.as_deref());
         let bounds = scene.page_box().union(scene.plane.bounds);
         self.scene = Some(Arc::new(scene));
         self.moved = None;
@@ -321,7 +364,12 @@ impl PageView {
 
     /// Selects exactly these charts.
     pub(super) fn select(&mut self, charts: impl IntoIterator<Item = usize>) {
-        self.selected = Outlined::of(charts, self.count());
+        self.selection.charts = Outlined::of(charts, self.count());
+    }
+
+    /// Selects exactly these elements.
+    pub(super) fn select_elements(&mut self, elements: ElementSet) {
+        self.selection.elements.set(elements);
     }
 
     /// Sets a camera that the window chose.
@@ -330,21 +378,35 @@ impl PageView {
         self.framed = Some(camera);
     }
 
-    /// Frames charts, or the whole page for an empty list.
-    pub(super) fn frame(&mut self, charts: &BTreeSet<usize>) {
-        let (Some(scene), size) = (&self.scene, self.pane.size()) else { return };
+    /// Frames the selected charts or elements, or the whole page if nothing is selected.
+    pub(super) fn frame_selection(&mut self) {
+        let Some(scene) = &self.scene else { return };
         let all = scene.page_box().union(scene.plane.bounds);
-        let bounds = if charts.is_empty() { all } else { widened(scene.bounds_of(charts.iter().copied())) };
-        let Some(mut camera) = self.pane.camera() else { return };
-        camera.frame(bounds, size);
-        if charts.is_empty() { self.set_framed(camera) } else { self.pane.set_camera(camera) }
+        let vertices = self.elements().vertices();
+        let bounds = if !self.selected().is_empty() {
+            Some(widened(scene.bounds_of(self.selected().iter().copied())))
+        } else if !vertices.is_empty() {
+            let tight = Bounds::of(vertices.iter().filter_map(|&vertex| scene.place_of(vertex)));
+            let half = DVec2::splat(LEAST_SHARE * all.extent());
+            let around = Bounds { low: tight.middle() - half, high: tight.middle() + half };
+            Some(widened(tight).union(around))
+        } else {
+            None
+        };
+        let (Some(mut camera), size) = (self.pane.camera(), self.pane.size()) else { return };
+        camera.frame(bounds.unwrap_or(all), size);
+        if bounds.is_none() { self.set_framed(camera) } else { self.pane.set_camera(camera) }
     }
 
     /// Sets the place of the page. Keeps the whole page in view, unless the user has moved the camera.
     pub(in crate::ui) fn set_rect(&mut self, rect: egui::Rect) {
         let was_framed = self.framed.is_some() && self.pane.camera() == self.framed;
-        if self.pane.set_rect(rect) && was_framed {
-            self.frame(&BTreeSet::new());
+        if self.pane.set_rect(rect)
+            && was_framed
+            && let (Some(scene), Some(mut camera)) = (&self.scene, self.pane.camera())
+        {
+            camera.frame(scene.page_box().union(scene.plane.bounds), self.pane.size());
+            self.set_framed(camera);
         }
     }
 }

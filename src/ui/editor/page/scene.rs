@@ -5,14 +5,18 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::session::{ChartPage, PageChart};
+use crate::session::{ChartPage, Model, PageChart};
 use crate::ui::editor::colour_table::{ShownColumn, vertices_in_file};
 use crate::ui::editor::paint::{Legend, column_paint};
 use crate::ui::state::ShadingMode;
-use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker};
+use crate::view::{
+    EdgeList, ElementMesh, FacePaint, MeshArrays, MeshPart, PlaneArrays, Quantity, Ray, Sphere, SurfacePicker,
+    VertexSets,
+};
 use freebound_core::geom::{Bounds, winding_number};
 use freebound_core::mesh::{FaceId, VertexId};
 use freebound_core::problem::Embedding;
+use freebound_core::verify::FaceDistortion;
 
 /// Inputs of a scene: revisions of the page and of the mesh on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,6 +131,62 @@ impl PageScene {
         points.map(|&[x, y, z]| center + radius * DVec3::new(x.into(), y.into(), z.into())).collect()
     }
 
+    /// Elements of all charts.
+    pub(in crate::ui) fn elements(&self) -> ElementMesh<'_> {
+        let sets = VertexSets { positions: self.picker.positions(), triangles: &self.mesh.triangles };
+        let parts = self.charts.iter().zip(self.spans.iter()).map(|(chart, span)| MeshPart {
+            disk: chart.mesh(),
+            first_vertex: span.vertices.start,
+            first_face: span.faces.start,
+        });
+        ElementMesh::new(sets, parts.collect())
+    }
+
+    /// Chart of a vertex, and the vertex on that chart.
+    pub(in crate::ui) fn on_chart(&self, vertex: VertexId) -> Option<(usize, VertexId)> {
+        let chart = self.spans.partition_point(|span| span.vertices.end <= vertex.index());
+        let span = self.spans.get(chart)?;
+        Some((chart, VertexId::from_index(vertex.index() - span.vertices.start)))
+    }
+
+    /// Vertex of the page for a vertex of a chart.
+    pub(in crate::ui) fn of_chart(&self, chart: usize, vertex: VertexId) -> Option<VertexId> {
+        let span = self.spans.get(chart).filter(|span| vertex.index() < span.vertices.len())?;
+        Some(VertexId::from_index(span.vertices.start + vertex.index()))
+    }
+
+    /// Model of a chart.
+    pub(in crate::ui) fn model_of(&self, chart: usize) -> Option<&Model> {
+        self.charts.get(chart).map(|chart| chart.model.as_ref())
+    }
+
+    /// Position of a vertex in the plane.
+    pub(in crate::ui) fn place_of(&self, vertex: VertexId) -> Option<DVec2> {
+        self.places.get(vertex.index()).copied()
+    }
+
+    /// Positions of all vertices in the plane.
+    pub(in crate::ui) fn places(&self) -> &[DVec2] {
+        &self.places
+    }
+
+    /// Positions of vertices in space.
+    pub(in crate::ui) fn positions_of<'a>(&'a self, vertices: impl IntoIterator<Item = &'a VertexId>) -> Vec<DVec3> {
+        vertices.into_iter().filter_map(|vertex| self.picker.positions().get(vertex.index()).copied()).collect()
+    }
+
+    /// True if the mesh is cut into the charts of another scene.
+    pub(super) fn is_cut_like(&self, other: &Self) -> bool {
+        let charts = |scene: &Self| Some(Arc::clone(&scene.charts.first()?.model.prepared.chart.as_ref()?.charts));
+        charts(self).zip(charts(other)).is_some_and(|(own, others)| Arc::ptr_eq(&own, &others))
+    }
+
+    /// True if all charts have as many vertices and faces as on another scene.
+    pub(super) fn has_numbers_of(&self, other: &Self) -> bool {
+        let numbers = |span: &ChartSpan| (span.vertices.clone(), span.faces.clone());
+        self.spans.iter().map(numbers).eq(other.spans.iter().map(numbers))
+    }
+
     /// Positions of a loop's vertices in the plane.
     fn rim<'a>(&'a self, rim: &'a [VertexId]) -> impl Iterator<Item = DVec2> + 'a {
         rim.iter().map(|vertex| self.places[vertex.index()])
@@ -187,6 +247,11 @@ impl PageScene {
         (0..self.spans.len()).filter(is_within).collect()
     }
 
+    /// Picking on the surface of all charts.
+    pub(in crate::ui) fn surface_picker(&self) -> &SurfacePicker {
+        &self.picker
+    }
+
     /// Point of the surface that a ray meets first.
     pub(in crate::ui) fn picker_hit(&self, ray: Ray) -> Option<DVec3> {
         self.picker.hit(ray).map(|hit| hit.point)
@@ -231,6 +296,12 @@ impl PageScene {
         let values: Vec<f64> = self.charts.iter().flat_map(of_chart).collect();
         let (paint, legend) = column_paint(&values, &self.flipped());
         (paint, Some(legend))
+    }
+
+    /// Symmetric Dirichlet energy of each triangle.
+    pub(in crate::ui) fn distortion(&self) -> Vec<f64> {
+        let faces = self.charts.iter().flat_map(|chart| &chart.outcome.distortion.faces);
+        faces.map(FaceDistortion::symmetric_dirichlet).collect()
     }
 
     /// Flipped faces of all charts.

@@ -1,0 +1,181 @@
+//! Vertices, edges and faces in both panes: the element under the pointer, those in a region, and clicks on them.
+
+use std::sync::Arc;
+
+use eframe::egui::{self, CursorIcon, Painter, Pos2, Response, Stroke};
+use glam::DVec2;
+
+use super::pane;
+use super::region::Region;
+use crate::render::LineLayer;
+use crate::ui::editor::PageScene;
+use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::ui::state::{Viewport, in_pane, size_of};
+use crate::ui::{Editor, Request, Theme};
+use crate::view::{
+    EdgeList, ElementKind, ElementMesh, ElementSet, MeshElement, OrbitCamera, PICK_RADIUS, PlaneCamera, SurfacePicker,
+    Visibility, distance_to_segment,
+};
+use freebound_core::mesh::VertexId;
+
+/// Width of the edges of a selection, points.
+const WIDTH: f32 = 2.5;
+
+/// Greatest number of dots on selected vertices.
+const DOTS_SHOWN: usize = 2000;
+
+/// Opacity of the mark of a selected vertex that the mesh hides.
+const HIDDEN: f32 = 0.4;
+
+/// Surface whose elements are picked in the mesh pane.
+pub(super) struct Surface<'a> {
+    pub(super) mesh: ElementMesh<'a>,
+    pub(super) picker: &'a SurfacePicker,
+}
+
+impl<'a> Surface<'a> {
+    pub(super) fn of_chart(scene: &'a MeshScene) -> Self {
+        Self { mesh: scene.elements(), picker: &scene.picker }
+    }
+
+    pub(super) fn of_page(scene: &'a PageScene) -> Self {
+        Self { mesh: scene.elements(), picker: scene.surface_picker() }
+    }
+
+    /// Element under a point of the pane.
+    pub(super) fn element_at(
+        &self,
+        kind: ElementKind,
+        view: Viewport<OrbitCamera>,
+        at: Pos2,
+        visibility: Visibility,
+    ) -> Option<MeshElement> {
+        let (camera, size) = (view.camera, size_of(view.rect));
+        let pointer = in_pane(view.rect, at);
+        if kind == ElementKind::Vertices {
+            let pick = self.picker.nearest_vertex(&camera, size, pointer, visibility)?;
+            return Some(MeshElement::Vertex(pick.vertex));
+        }
+        let hit = self.picker.hit(camera.ray(pointer, size))?;
+        let spot = |vertex: VertexId| view.spot(self.picker.positions()[vertex.index()]).map(plain);
+        let away = |[a, b]: [VertexId; 2]| match (spot(a), spot(b)) {
+            (Some(a), Some(b)) => distance_to_segment(plain(at), [a, b]),
+            _ => f64::INFINITY,
+        };
+        self.mesh.element_at(kind, hit.face.index(), PICK_RADIUS, away)
+    }
+
+    /// Elements inside a region of the pane, and those under the line of a stroke. Without X-ray, a vertex that the mesh
+    /// hides is outside.
+    pub(super) fn inside(
+        &self,
+        kind: ElementKind,
+        view: Viewport<OrbitCamera>,
+        region: &Region,
+        visibility: Visibility,
+    ) -> ElementSet {
+        let is_seen = |vertex| visibility == Visibility::All || self.picker.is_visible(vertex, view.camera.eye());
+        let place = |vertex: VertexId| view.spot(self.picker.positions()[vertex.index()]);
+        let holds = |vertex| place(vertex).is_some_and(|at| region.contains(at)) && is_seen(vertex);
+        let inside = self.mesh.inside(kind, holds);
+        let crossed = region.line().into_iter().filter_map(|at| self.element_at(kind, view, at, visibility));
+        self.mesh.union(&inside, &self.mesh.set_of(kind, crossed))
+    }
+}
+
+/// Map whose elements are picked in the embedding pane.
+pub(super) struct Plane<'a> {
+    pub(super) mesh: ElementMesh<'a>,
+    pub(super) places: &'a [DVec2],
+}
+
+impl<'a> Plane<'a> {
+    pub(super) fn of_chart(plane: &'a PlaneScene) -> Self {
+        Self { mesh: plane.mesh.elements(), places: plane.positions() }
+    }
+
+    pub(super) fn of_page(scene: &'a PageScene) -> Self {
+        Self { mesh: scene.elements(), places: scene.places() }
+    }
+
+    /// Element under a point of the pane.
+    pub(super) fn element_at(&self, kind: ElementKind, view: Viewport<PlaneCamera>, at: Pos2) -> Option<MeshElement> {
+        let radius = PICK_RADIUS / view.camera.points_per_unit();
+        self.mesh.element_in_plane(kind, self.places, view.point_at(at), radius)
+    }
+
+    /// Elements inside a region of the pane, and those under the line of a stroke.
+    pub(super) fn inside(&self, kind: ElementKind, view: Viewport<PlaneCamera>, region: &Region) -> ElementSet {
+        let inside = self.mesh.inside(kind, |vertex| region.contains(view.spot(self.places[vertex.index()])));
+        let crossed = region.line().into_iter().filter_map(|at| self.element_at(kind, view, at));
+        self.mesh.union(&inside, &self.mesh.set_of(kind, crossed))
+    }
+}
+
+/// Point of the window as a point of the plane.
+fn plain(at: Pos2) -> DVec2 {
+    DVec2::new(f64::from(at.x), f64::from(at.y))
+}
+
+/// Vertices that count for picking and for regions.
+pub(super) fn visibility(editor: &Editor) -> Visibility {
+    if editor.selection.through { Visibility::All } else { Visibility::Visible }
+}
+
+/// Click that selects the element under the pointer, or nothing.
+pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &Editor, requests: &mut Vec<Request>) {
+    let element = editor.pointer.element();
+    if response.clicked() {
+        let adds = ui.input(|input| input.modifiers.shift);
+        match element {
+            Some(element) => requests.push(Request::SelectElement { element, adds }),
+            None if adds => {}
+            None => requests.push(Request::SelectNothing),
+        }
+    }
+    if response.hovered() && element.is_some() {
+        ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+    }
+}
+
+/// Lines of a selection, for both panes.
+pub(super) fn line_of(edges: &Arc<EdgeList>, theme: &Theme) -> LineLayer {
+    LineLayer { edges: Arc::clone(edges), colour: theme.selection_line, width_in_points: WIDTH }
+}
+
+/// Marks the element under the pointer. `spot` is the place of a vertex on the screen, if it is seen.
+pub(super) fn mark_under_pointer(
+    painter: &Painter,
+    element: Option<MeshElement>,
+    mesh: &ElementMesh<'_>,
+    theme: &Theme,
+    spot: impl Fn(VertexId) -> Option<Pos2>,
+) {
+    if let Some(MeshElement::Vertex(vertex)) = element
+        && let Some(at) = spot(vertex)
+    {
+        pane::halo(painter, at, theme.selection, 5.0);
+    }
+    for ends in element.map(|element| mesh.outline(element)).unwrap_or_default() {
+        if let [Some(a), Some(b)] = ends.map(&spot) {
+            painter.line_segment([a, b], Stroke::new(3.5, theme.selection));
+        }
+    }
+}
+
+/// Dots on the selected vertices. `spot` is the place of a vertex on the screen, and true if it is seen.
+pub(super) fn dots(
+    painter: &Painter,
+    elements: &ElementSet,
+    theme: &Theme,
+    spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
+) {
+    if elements.kind() != ElementKind::Vertices {
+        return;
+    }
+    for (at, is_seen) in elements.vertices().iter().take(DOTS_SHOWN).filter_map(|&vertex| spot(vertex)) {
+        // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
+        let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
+        pane::dot(painter, at, colour);
+    }
+}
