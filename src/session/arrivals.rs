@@ -100,9 +100,7 @@ impl Session {
 
     /// Reports the reason why a constraint file is rejected, and shows the vertices concerned.
     fn tell_constraints(&mut self, path: &Path, error: &ConstraintsError) {
-        let model = self.model();
-        let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
-        let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
+        let vertices = error.vertices().into_iter().filter(|&number| self.has_number(number)).collect();
         let message =
             Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(vertices).of_file(Some(path));
         self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));

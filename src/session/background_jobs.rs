@@ -28,6 +28,7 @@ pub(super) struct Flat {
     /// Preparation of the mesh, and the number of its chart.
     pub(super) form: Preparation,
     pub(super) chart: Option<usize>,
+    /// Flat mesh, or the error with the numbers of files.
     pub(super) embedding: Result<Embedding, SolveError>,
 }
 

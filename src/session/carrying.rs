@@ -65,8 +65,7 @@ impl Session {
             let text = "no pin of the project has a vertex on this mesh";
             return self.complain(text, Some("choose the project of a mesh of the same surface"));
         }
-        let vertices: Vec<VertexId> =
-            carried.constraints.targets.keys().filter_map(|&vertex| now.vertex_of_file(vertex)).collect();
+        let vertices: Vec<VertexId> = carried.constraints.targets.keys().copied().collect();
         let count = carried.constraints.targets.len();
         if self.take_constraints(carried.constraints) {
             let words = carried_words(&carried.report, count, lost, is_moved);

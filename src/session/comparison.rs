@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::Model;
+use super::numbers::error_in_file;
 use freebound_core::flatten::{Ending, Flattener, Step};
 use freebound_core::pipeline::{Outcome, Problem, pins_summary};
 use freebound_core::problem::{Control, SolveError, Variant};
@@ -102,7 +103,6 @@ impl Numbers {
         let settings = &problem.settings;
         let variant = Variant::of(settings);
         let shape = settings.method.boundary_shape();
-        let in_file = |error: &SolveError| error.clone().renumbered(|vertex| model.vertex_in_file(vertex));
         MethodReport {
             name: variant.to_string(),
             title: variant.title(),
@@ -110,7 +110,7 @@ impl Numbers {
             family: variant.family,
             shape: shape.cloned(),
             ending: self.ending.as_ref().map_or("failed", |ending| ending.name()),
-            error: self.ending.as_ref().err().map(|error| MethodError::from(&in_file(error))),
+            error: self.ending.as_ref().err().map(|error| MethodError::from(&error_in_file(model, error))),
             result: outcome.map(|outcome| result(model, outcome)),
             seconds: self.seconds,
             factor_bytes: self.steps.iter().map(|timed| timed.step.factor_bytes).filter(|&bytes| bytes > 0).max(),

@@ -1,8 +1,11 @@
 //! Edits of the document: pins and their targets, method and weights. Each edit is undoable and starts a solve.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::background_jobs::{BackgroundJob, Flat};
+use super::numbers::error_in_file;
 use super::v_axis::TurnedV;
 use super::{ChartEdits, Command, Document, Message, MessagePlace, Session};
 use freebound_core::flatten::Flattener;
@@ -194,7 +197,7 @@ impl Session {
         let has_name = |note: &PinNote| note.name.as_ref().map(PinName::key) == key;
         let other = self.document.notes.iter().find(|(other, note)| **other != vertex && has_name(note));
         if let (Some(name), Some((other, _))) = (&name, other) {
-            let text = format!("pin {other} has the name \"{name}\" already");
+            let text = format!("pin {} has the name \"{name}\" already", self.number_of(*other));
             return self.complain(text, Some("choose another name"));
         }
         if is_pin {
@@ -235,23 +238,19 @@ impl Session {
             let text = "fitting needs at least two pins";
             return self.complain(text, Some("add another pin"));
         }
-        let model = self.model();
-        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.prepared.form.clone())))
-        else {
+        let model = self.model().cloned();
+        let Some((model, disk)) = model.and_then(|model| model.disk().map(Arc::clone).map(|disk| (model, disk))) else {
             return self.complain("targets cannot be fitted to a mesh with faults: repair it first", None);
         };
-        let (frame, chart) = (self.document.frame(), self.chart_on_screen());
+        let (frame, form, chart) = (self.document.frame(), model.prepared.form.clone(), self.chart_on_screen());
         let [low, high] = frame.corners();
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.jobs.send("fitting the targets", move |cancel| {
             let step = Flattener::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
-            BackgroundJob::Flat(Flat {
-                frame,
-                form,
-                chart,
-                embedding: step.map(|step| step.candidate.solution.embedding),
-            })
+            let embedding = step.map(|step| step.candidate.solution.embedding);
+            let embedding = embedding.map_err(|error| error_in_file(&model, &error));
+            BackgroundJob::Flat(Flat { frame, form, chart, embedding })
         });
     }
 

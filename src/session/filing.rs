@@ -96,7 +96,9 @@ impl Session {
         }
         for fault in &diagnosis.faults {
             let message = Message::error(MessagePlace::Mesh, fault.message()).with_remedy(fault.remedy());
-            let message = message.with_vertices(fault.vertices_of(0, model.mesh()));
+            let vertices = fault.vertices_of(0, model.mesh());
+            let numbers = vertices.into_iter().map(|vertex| model.vertex_in_file(vertex)).collect();
+            let message = message.with_vertices(numbers);
             self.messages.say(message.of_file(Some(model.path.as_deref().unwrap_or(Path::new(&model.name)))));
         }
     }

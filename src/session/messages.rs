@@ -52,7 +52,7 @@ pub struct Message {
     pub text: String,
     /// Action that the message suggests.
     pub remedy: Option<String>,
-    /// Vertices to highlight. Empty if the message concerns no single element.
+    /// Vertices to highlight, by their numbers in files. Empty if the message concerns no single element.
     pub vertices: Vec<VertexId>,
     /// Files that were written, the requested file first.
     pub files: Vec<PathBuf>,
@@ -113,7 +113,7 @@ impl Message {
         Self { about: self.about.or_else(|| path.map(Path::to_owned)), ..self }
     }
 
-    /// Adds the vertices concerned.
+    /// Adds the vertices concerned, by their numbers in files.
     pub(super) fn with_vertices(self, vertices: Vec<VertexId>) -> Self {
         Self { vertices, ..self }
     }

@@ -69,6 +69,7 @@
 //! | `recent`             | recently opened files                                                  |
 //! | `preferences`        | state of the window, kept between runs                                 |
 //! | `messages`           | part: messages to the user                                             |
+//! | `numbers`            | errors of solves, with the numbers of files                            |
 //! | `background`         | slots for work on background threads                                   |
 
 mod action;
@@ -112,6 +113,7 @@ mod locating;
 mod messages;
 mod morphing;
 mod morphs;
+mod numbers;
 mod open_mesh;
 mod open_project;
 mod opened;

@@ -38,6 +38,20 @@ impl Session {
         self.model().map_or(0, |model| model.vertex_count())
     }
 
+    /// Number in files of a vertex of the open mesh or chart. Texts show this number.
+    pub fn number_of(&self, vertex: VertexId) -> VertexId {
+        self.model().map_or(vertex, |model| model.vertex_in_file(vertex))
+    }
+
+    /// True if the open mesh has a vertex of this number in files, on any chart.
+    pub fn has_number(&self, number: VertexId) -> bool {
+        let Some(model) = self.model() else { return false };
+        match &model.prepared.chart {
+            Some(of) => of.charts.chart_of_vertex(number).is_some(),
+            None => model.vertex_of_file(number).is_some(),
+        }
+    }
+
     /// True if the shown chart is the one that the document wants, or nothing is open.
     pub(super) fn has_chart_as_wanted(&self) -> bool {
         self.model().is_none_or(|model| model.is_chart(self.document.chart))
@@ -262,9 +276,10 @@ impl Session {
         notes.filter_map(|note| note.name.as_ref()).map(PinName::key).collect()
     }
 
-    /// Number of a vertex, with the name of its pin if it has one.
+    /// Number of a vertex in files, with the name of its pin if it has one.
     pub fn pin_words(&self, vertex: VertexId) -> String {
-        self.pin_name(vertex).map_or_else(|| vertex.to_string(), |name| format!("{vertex} ({name})"))
+        let number = self.number_of(vertex);
+        self.pin_name(vertex).map_or_else(|| number.to_string(), |name| format!("{number} ({name})"))
     }
 
     /// Description of a conflict in one line, with the names of its pins.

@@ -33,9 +33,7 @@ impl Session {
             Ok(edges) if edges.is_empty() => self.complain("the file has no edges", None),
             Ok(edges) => self.set_seams(self.seams().with(edges)),
             Err(error) => {
-                let model = self.model();
-                let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
-                let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
+                let vertices = error.vertices().into_iter().filter(|&number| self.has_number(number)).collect();
                 let message = Message::error(MessagePlace::Mesh, error.to_string()).with_vertices(vertices);
                 self.messages.say(message.with_remedy("nothing was imported: repair the file and import it again"));
             }

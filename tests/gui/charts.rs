@@ -6,9 +6,9 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use freebound::session::{ChartState, LockState};
+use freebound::session::{Action, ChartState, LockState};
 use freebound::ui::{Tab, sentence};
-use freebound_core::mesh::{TriMesh, VertexId};
+use freebound_core::mesh::{FaceId, TriMesh, VertexId};
 
 use crate::harness::{Window, sheet};
 use freebound_testkit::assert_message;
@@ -213,6 +213,90 @@ fn the_selection_does_not_go_over_to_another_chart() {
     window.editor_mut().selection.select([VertexId::new(3)]);
     window.press(Modifiers::NONE, Key::PageDown);
     assert!(window.editor().selection.vertices().is_empty());
+}
+
+fn selected(window: &Window) -> Vec<VertexId> {
+    window.editor().selection.vertices().iter().copied().collect()
+}
+
+/// Types the number of an element into the window "Go to".
+fn go_to(window: &mut Window, number: &str) {
+    window.key(Key::G);
+    window.type_text(number);
+    window.key(Key::Enter);
+}
+
+#[test]
+fn a_vertex_of_a_later_chart_has_the_number_of_the_file_everywhere() {
+    let mut window = with_sheet_alone();
+    let own = VertexId::new(33);
+    // Vertices have equations in maps by a linear solve.
+    window.editor_mut().layout.show_tab(Tab::Method);
+    window.settle();
+    window.choose("Method", "Natural boundary");
+    window.editor_mut().selection.select([own]);
+    window.click("Vertex");
+    // The charts before it have 25 and 49 vertices.
+    let number = window.editor().session.model().expect("open").vertex_in_file(own);
+    assert_eq!((chart(&window), number), (Some(2), VertexId::new(25 + 49 + 33)));
+    let paints = |window: &Window, wanted: &str| window.words().iter().any(|words| words == wanted);
+    assert!(paints(&window, "v107") && paints(&window, "Chart 2"), "{:?}", window.words());
+    assert!(!paints(&window, "v33"), "{:?}", window.words());
+    let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
+    let neighbours: Vec<VertexId> = disk.outgoing(own).map(|halfedge| disk.head(halfedge)).collect();
+    // The table of the equation may have more rows than the panel shows at once.
+    let is_named = |vertex: &&VertexId| paints(&window, &window.editor().session.number_of(**vertex).to_string());
+    assert!(neighbours.iter().filter(is_named).count() > 1, "{:?}", window.words());
+    assert!(!neighbours.iter().any(|own| paints(&window, &own.to_string())), "{:?}", window.words());
+    window.harness.get_by_label("Copy").click();
+    window.step();
+    let commands = &window.harness.output().platform_output.commands;
+    let is_copied =
+        |command: &egui::OutputCommand| matches!(command, egui::OutputCommand::CopyText(text) if text == "107");
+    assert!(commands.iter().any(is_copied), "{commands:?}");
+    window.harness.hover_at(window.place_in_plane(window.embedding()[own]));
+    window.harness.run_steps(2);
+    assert_eq!(window.editor().pointer.vertex(), Some(own));
+    assert!(window.shows("  ·  v107"), "in the status bar: {:?}", window.words());
+    window.editor_mut().session.handle(Action::Fix(vec![own]));
+    window.settle();
+    window.click("Pins");
+    assert!(window.has_button("Free pin v107") && window.has_button("Pin v107"), "{:?}", window.controls());
+}
+
+#[test]
+fn go_to_takes_the_numbers_of_the_file_and_shows_their_charts() {
+    let mut window = with_sheet_alone();
+    let vertices = [("24", 0, 24), ("v25", 1, 0), ("73", 1, 48), ("107", 2, 33), ("3", 0, 3), ("4", 0, 4)];
+    for (number, of, own) in vertices {
+        go_to(&mut window, number);
+        assert_eq!((chart(&window), selected(&window)), (Some(of), vec![VertexId::new(own)]), "{number}");
+    }
+    // The first chart has 32 faces.
+    go_to(&mut window, "f37");
+    let mesh = window.editor().session.model().expect("open").mesh().clone();
+    let mut corners = mesh.triangles[5].to_vec();
+    corners.sort_unstable();
+    assert_eq!((chart(&window), mesh.polygon(FaceId::new(5)), selected(&window)), (Some(1), 37, corners));
+    for beyond in ["174", "f266"] {
+        window.key(Key::G);
+        window.type_text(beyond);
+        assert!(!window.is_enabled("Go"), "{beyond}");
+        window.key(Key::Escape);
+    }
+}
+
+#[test]
+fn a_message_about_a_vertex_of_another_chart_leads_there() {
+    let mut window = with_sheet_alone();
+    let file = window.path("pins.txt");
+    std::fs::write(&file, "30 0 0 -1\n").expect("written");
+    window.editor_mut().session.handle(Action::ImportConstraints(file));
+    window.settle();
+    let message = window.editor().session.messages().last().expect("it is said");
+    assert_eq!(message.vertices, [VertexId::new(30)]);
+    window.click("Go to vertex v30");
+    assert_eq!((chart(&window), selected(&window)), (Some(1), vec![VertexId::new(5)]));
 }
 
 #[test]

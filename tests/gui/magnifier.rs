@@ -29,6 +29,12 @@ fn inset_rect(window: &Window) -> Rect {
     window.rect(Role::Button, &inset(window).expect("it shows"))
 }
 
+/// Description of a defect, by its place in the list.
+fn words_of(window: &Window, place: usize) -> String {
+    let scene = window.editor().mesh_scene().expect("a mesh shows");
+    window.editor().defects()[place].words(scene)
+}
+
 /// Magnification according to the inset's name.
 fn factor(window: &Window) -> f64 {
     let name = inset(window).expect("it shows");
@@ -40,7 +46,7 @@ fn it_shows_the_first_defect_and_goes_when_there_is_none() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     assert_eq!(inset(&window), None, "nothing is wrong yet");
     fold(&mut window);
-    let first = window.editor().defects()[0].words();
+    let first = words_of(&window, 0);
     assert!(inset(&window).expect("it shows").starts_with(&format!("Magnifier: {first}, × ")));
     assert!(factor(&window) > 1.5, "{}", factor(&window));
     window.menu(&["Edit", "Free all pins"]);
@@ -52,7 +58,7 @@ fn it_shows_the_defect_gone_to() {
     let mut window = folded();
     window.key(Key::D);
     window.key(Key::D);
-    let second = window.editor().defects()[1].words();
+    let second = words_of(&window, 1);
     // The pane has zoomed in as far as the inset. Zoomed out, the inset shows the current defect.
     window.key(Key::Escape);
     window.key(Key::F);
@@ -164,7 +170,7 @@ corpus_test! {
         window.editor_mut().selection.set_defect(Some(flipped));
         window.editor_mut().session.handle(Action::EndGesture);
         window.settle();
-        assert!(inset(&window).expect("it shows").contains(&crossing.words()));
+        assert!(inset(&window).expect("it shows").contains(&words_of(&window, flipped)));
         // The magnified element is in the middle of the picture below the title.
         let rect = inset_rect(&window);
         assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));

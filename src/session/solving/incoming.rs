@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use super::Solving;
 use super::running::{Delivery, News, Next, Resting, Running, StopReason};
+use crate::session::numbers::error_in_file;
 use crate::session::stop::Goal;
-use crate::session::{Message, MessagePlace, Messages};
+use crate::session::{Message, MessagePlace, Messages, Model};
 use freebound_core::flatten::{Ending, Flattener};
+use freebound_core::mesh::VertexId;
 use freebound_core::problem::SolveError;
 
 impl Solving {
@@ -69,7 +71,7 @@ impl Solving {
 
     /// Stores a run that has stopped. Returns the continuation, if the goal changed meanwhile.
     fn take_back(&mut self, run: Flattener, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
-        let Running { problem, paused, shared, .. } = self.running.take()?;
+        let Running { model, problem, paused, shared, .. } = self.running.take()?;
         let has_new_vertices = problem.settings.new_vertices;
         self.failed = result.as_ref().err().filter(|error| **error != SolveError::Cancelled).map(|_| problem.clone());
         self.resting = Some(Resting { problem, run });
@@ -81,17 +83,19 @@ impl Solving {
             }),
             Err(SolveError::Cancelled) => None,
             Err(error) => {
-                self.tell(&error, has_new_vertices, messages);
+                self.tell(&error, &model, has_new_vertices, messages);
                 None
             }
         };
         if std::mem::take(&mut self.is_outdated) { Some(Next::Anew) } else { goal.map(Next::On) }
     }
 
-    /// Reports an error. If constraints cannot be met, their vertices are highlighted.
-    pub(super) fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
+    /// Reports an error of a solve of `model`. If constraints cannot be met, their vertices are highlighted.
+    pub(super) fn tell(&mut self, error: &SolveError, model: &Model, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
-        let mut message = Message::error(MessagePlace::Embedding, error.to_string()).with_vertices(error.vertices());
+        let in_file = error_in_file(model, error);
+        let mut message =
+            Message::error(MessagePlace::Embedding, in_file.to_string()).with_vertices(in_file.vertices());
         if matches!(error, SolveError::StagesExhausted { .. }) {
             self.ending = Some(Ending::Done);
         }
@@ -99,7 +103,8 @@ impl Solving {
             self.ending = Some(Ending::Unmet);
             let remedy = if has_new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };
             let unmet = self.newest().map(|newest| newest.step.unmet()).unwrap_or_default();
-            message = message.with_remedy(remedy).with_vertices(unmet);
+            let numbers: Vec<VertexId> = unmet.into_iter().map(|vertex| model.vertex_in_file(vertex)).collect();
+            message = message.with_remedy(remedy).with_vertices(numbers);
         }
         self.message = Some(messages.say(message));
     }

@@ -220,12 +220,12 @@ impl Solving {
         let (sender, deliveries) = sync_channel(STEPS_WAITING);
         let shared = Arc::new(Shared::new(goal, &self.wake));
         let mut job = Background::new("solve", &self.wake);
-        let (of_job, problem) = (Arc::clone(&shared), task.problem.clone());
+        let (of_job, model, problem) = (Arc::clone(&shared), Arc::clone(&task.model), task.problem.clone());
         job.start((), move |cancel| {
             let result = take_steps(&mut run, &task, &of_job, &sender, cancel);
             (run, result)
         });
-        self.running = Some(Running { job, deliveries, shared, problem, has_delivered, paused: None });
+        self.running = Some(Running { job, deliveries, shared, model, problem, has_delivered, paused: None });
     }
 
     /// Shows the newest step from now on.

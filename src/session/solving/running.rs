@@ -73,6 +73,7 @@ pub(super) struct Running {
     pub(super) job: Background<(), (Flattener, Result<(), SolveError>)>,
     pub(super) deliveries: Receiver<Delivery>,
     pub(super) shared: Arc<Shared>,
+    pub(super) model: Arc<Model>,
     pub(super) problem: Problem,
     /// True if a step has arrived.
     pub(super) has_delivered: bool,

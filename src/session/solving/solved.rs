@@ -87,7 +87,7 @@ impl Solving {
         self.outcome_revision += 1;
         if self.ending == Some(Ending::Unmet) {
             let has_new_vertices = self.resting.as_ref().is_some_and(|resting| resting.problem.settings.new_vertices);
-            self.tell(&SolveError::Unmet, has_new_vertices, messages);
+            self.tell(&SolveError::Unmet, &task.model, has_new_vertices, messages);
         }
     }
 }

@@ -44,14 +44,20 @@ impl Defect {
         }
     }
 
-    /// Description in lists.
-    pub fn words(self) -> String {
+    /// Description in lists, with the numbers of files. `scene` is the mesh of the embedding.
+    pub fn words(self, scene: &MeshScene) -> String {
         match self {
-            Self::Flipped(face) => format!("flipped face {face}"),
-            Self::Concave(face) => format!("concave polygon at {face}"),
-            Self::CrossedHole(lowest) => format!("crossed hole at {lowest}"),
-            Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
-            Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
+            Self::Flipped(face) => format!("flipped face {}", scene.face_number(face)),
+            Self::Concave(face) => format!("concave polygon at {}", scene.face_number(face)),
+            Self::CrossedHole(lowest) => format!("crossed hole at {}", scene.vertex_words(lowest)),
+            Self::Crossing(edges) => {
+                let [a, b] = edges.map(|edge| scene.edge_words(edge));
+                format!("crossing {a} × {b}")
+            }
+            Self::Overwound(vertex) if scene.new_vertex(vertex).is_some() => {
+                format!("overwound {}", scene.vertex_words(vertex))
+            }
+            Self::Overwound(vertex) => format!("overwound vertex {}", scene.vertex_words(vertex)),
         }
     }
 }

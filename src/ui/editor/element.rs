@@ -11,7 +11,8 @@ pub(in crate::ui) enum Element {
 }
 
 impl Element {
-    /// Parses user input: `12` or `v12` is a vertex, `e3` an edge, `f7` a face.
+    /// Parses user input: `12` or `v12` is a vertex, `e3` an edge, `f7` a face. Vertices and faces have the numbers of
+    /// files, edges those of the mesh on the screen.
     pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
         let text = text.trim().to_ascii_lowercase();
         let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;

@@ -19,7 +19,7 @@
 //! | `seam_hover.rs` | the seam under the pointer |
 //! | `seam_actions.rs` | handling of requests to the seam tool |
 //! | `seam_tool.rs` | the seam being drawn, and shortest paths from its last vertex |
-//! | `element.rs` | elements of the mesh by name |
+//! | `element.rs`, `numbers.rs` | elements of the mesh by name; names of elements, with the numbers of files |
 //! | `drawn_elements.rs` | selected elements with their edges for drawing |
 //! | `elements.rs` | selection of vertices, edges and faces, on one chart and on the page |
 //! | `around.rs` | the charts around the chart on the screen |
@@ -58,6 +58,7 @@ mod gpu;
 mod in_file;
 pub(super) mod layout;
 mod mesh_view;
+mod numbers;
 mod opened;
 mod page;
 pub(super) mod paint;
@@ -99,6 +100,7 @@ use crate::ui::state::{Tab, TimelineView};
 use appearance::PaneShading;
 pub(in crate::ui) use files::BakeChoice;
 use files::Files;
+use freebound_core::mesh::VertexId;
 use gpu::Gpu;
 use layout::Layout;
 use mesh_view::MeshView;
@@ -192,6 +194,15 @@ impl Editor {
         self.pointer.forget_vertices();
         self.tools.end_drag();
         self.tools.set_pair(None);
+    }
+
+    /// Restores the selection on the mesh that has just appeared. Returns true if the selection is to be framed. If
+    /// certain vertices were awaited, other copies of their vertices of the file are not selected.
+    fn take_selection_back(&mut self) -> bool {
+        let awaited = self.opened.take_awaited();
+        let Some(scene) = self.mesh.scene() else { return false };
+        let is_awaited = |copy: VertexId| awaited.is_empty() || awaited.contains(&scene.model.vertex_in_file(copy));
+        self.selection.come_back(|of_file| scene.in_file.copies(of_file).filter(|&copy| is_awaited(copy)).collect())
     }
 
     /// Background work, if it has run long enough to show.
@@ -313,8 +324,7 @@ impl Editor {
             self.forget_table();
             self.put_on_view();
         }
-        let scene = self.mesh.scene();
-        if scene.is_some_and(|scene| self.selection.come_back(|of_file| scene.in_file.copies(of_file).collect())) {
+        if self.take_selection_back() {
             self.frame();
         }
         self.pointer.forget_vertices();

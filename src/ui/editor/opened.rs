@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use crate::session::{MapOrigin, Session};
+use freebound_core::mesh::VertexId;
 
 /// Greatest age of the view in a recovery copy. A selection can be large, so the view is not stored every frame.
 const VIEW_INTERVAL: Duration = Duration::from_secs(1);
@@ -24,6 +25,8 @@ pub struct Opened {
     targets_left: Option<u64>,
     /// Opening whose line on the origin of the map is closed.
     map_origin_closed: Option<u64>,
+    /// Vertices to be selected once their mesh is on the screen, by their numbers in files.
+    awaited: Vec<VertexId>,
 }
 
 impl Opened {
@@ -42,6 +45,16 @@ impl Opened {
     pub(super) fn note_model(&mut self, session: &Session) -> Option<u64> {
         let before = std::mem::replace(&mut self.model, session.model_revision());
         (before != self.model).then_some(before)
+    }
+
+    /// Sets the vertices to be selected once their mesh is on the screen, by their numbers in files.
+    pub(super) fn await_vertices(&mut self, numbers: Vec<VertexId>) {
+        self.awaited = numbers;
+    }
+
+    /// Returns the awaited vertices once, by their numbers in files.
+    pub(super) fn take_awaited(&mut self) -> Vec<VertexId> {
+        std::mem::take(&mut self.awaited)
     }
 
     pub(super) fn is_on_screen(&self, session: &Session) -> bool {

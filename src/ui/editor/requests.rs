@@ -66,6 +66,7 @@ impl Editor {
             Request::Frame => self.frame(),
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToFileFaces(faces) => self.go_to_file_faces(&faces),
+            Request::GoToFileVertices(numbers) => self.go_to_file_vertices(numbers),
             Request::GoToDefect(place) => self.go_to_defect(place),
             Request::StepChart(by) => self.step_chart(by),
             Request::ToggleLock => self.toggle_lock(),

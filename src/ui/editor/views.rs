@@ -8,7 +8,7 @@ use super::Editor;
 use super::defect::Defect;
 use super::page::LEAST_SHARE;
 use super::picture_box::picture_box;
-use crate::session::Action;
+use crate::session::{Action, Model};
 use crate::view::{Sphere, part_around};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{FaceId, VertexId};
@@ -72,25 +72,30 @@ impl Editor {
 
     pub(super) fn go_to_file_faces(&mut self, faces: &[FaceId]) {
         let (Some(model), Some(&first)) = (self.session.model(), faces.first()) else { return };
-        let source = &model.source.polygons;
-        let vertices: Vec<VertexId> = faces.iter().flat_map(|face| source.face(face.index())).copied().collect();
-        let chart = self.session.charts().and_then(|charts| charts.chart_of_file_face(first));
-        if let Some(chart) = chart.filter(|&chart| self.session.chart_on_screen() != Some(chart)) {
-            self.leave_page();
-            self.selection.await_mesh(vertices);
-            self.act(Action::ShowChart(chart));
-            return;
-        }
-        let Some(scene) = self.mesh_scene() else { return };
-        if !self.is_of_session(scene) {
-            self.selection.await_mesh(vertices);
-            return;
-        }
-        let on_screen: Vec<VertexId> = vertices.iter().flat_map(|&vertex| scene.in_file.copies(vertex)).collect();
-        if on_screen.is_empty() {
+        let corners = faces.iter().flat_map(|&face| corners_in_file(model, face)).copied();
+        let numbers: Vec<VertexId> = corners.filter(|&number| self.session.has_number(number)).collect();
+        if numbers.is_empty() {
             self.session.tell_left_out(first);
         }
-        self.go_to_vertices(on_screen);
+        self.go_to_file_vertices(numbers);
+    }
+
+    /// Shows vertices by their numbers in files, with the chart of the first one. Selects those on that chart.
+    pub(super) fn go_to_file_vertices(&mut self, numbers: Vec<VertexId>) {
+        let Some(model) = self.session.model().map(Arc::clone) else { return };
+        let charts = model.prepared.chart.as_ref().map(|of| &of.charts);
+        let chart = numbers.iter().find_map(|&number| charts?.chart_of_vertex(number));
+        let elsewhere = chart.filter(|&chart| self.session.chart_on_screen() != Some(chart));
+        let is_behind = self.mesh_scene().is_none_or(|scene| !self.is_of_session(scene));
+        if elsewhere.is_none() && !is_behind {
+            return self.go_to_vertices(numbers.iter().filter_map(|&number| model.vertex_of_file(number)).collect());
+        }
+        self.leave_page();
+        self.selection.await_mesh(vertices_of_source(&model, &numbers));
+        self.opened.await_vertices(numbers);
+        if let Some(chart) = elsewhere {
+            self.act(Action::ShowChart(chart));
+        }
     }
 
     pub(super) fn step_defect(&mut self, by: isize) {
@@ -137,4 +142,19 @@ impl Editor {
     pub fn defect_count(&self) -> usize {
         self.step_on_screen().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())
     }
+}
+
+/// Corners of a face of the file, by their numbers in files. A face that repairs removed has the corners of the file.
+fn corners_in_file(model: &Model, face: FaceId) -> &[VertexId] {
+    let given = model.source.polygons.face(face.index());
+    let Some(whole) = model.whole_repaired() else { return given };
+    let place = (0..).map_while(|place| whole.face_in_file(place)).position(|of| of == face);
+    place.map_or(given, |place| whole.polygons().face(place))
+}
+
+/// Vertices of the file before cuts and repairs, for vertices by their numbers in files.
+fn vertices_of_source(model: &Model, numbers: &[VertexId]) -> Vec<VertexId> {
+    let Some(whole) = model.whole_repaired() else { return numbers.to_vec() };
+    let of = whole.vertices_of(&model.source.polygons);
+    numbers.iter().filter_map(|number| of.get(number.index()).copied()).collect()
 }

@@ -79,7 +79,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         ui.colored_label(theme.planar, "Planar: proved one-to-one");
         ui.label("Exact arithmetic shows that no face is flipped and that the boundary does not meet itself.");
         read_more(ui, "What is proved?", "why.md#the-word-proved", requests);
-        unmet_list(ui, &outcome.step.unmet(), requests);
+        unmet_list(ui, editor, &outcome.step.unmet(), requests);
         let new = outcome.new_vertex_count();
         if new > 0 {
             let words = counted(new, "new vertex", "new vertices");
@@ -131,26 +131,27 @@ fn counts(ui: &mut egui::Ui, editor: &Editor, verdict: &Verdict, requests: &mut 
 }
 
 /// List of the hard pins that miss their targets, each a link to its vertex.
-fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>) {
+fn unmet_list(ui: &mut egui::Ui, editor: &Editor, unmet: &[VertexId], requests: &mut Vec<Request>) {
     if unmet.is_empty() {
         return;
     }
     ui.colored_label(theme_of(ui).unmet, format!("Constraints not met: {}", unmet.len()));
     ui.horizontal_wrapped(|ui| {
         for &vertex in unmet {
-            let link = ui.link(vertex.to_string()).on_hover_text("Show this vertex");
+            let link = ui.link(editor.vertex_words(vertex)).on_hover_text("Show this vertex");
             link.asks(Request::GoTo(vec![vertex]), requests);
         }
     });
 }
 
 fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(plane) = editor.plane.scene() else { return };
     let theme = theme_of(ui);
     let defects = editor.defects();
     egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, defects.len(), |ui, range| {
         for place in range {
             let colour = Kind::of(defects[place]).colour(theme);
-            let words = RichText::new(defects[place].words()).color(colour);
+            let words = RichText::new(defects[place].words(&plane.mesh)).color(colour);
             let row = ui.selectable_label(editor.selection.defect() == Some(place), words);
             row.context_menu(|ui| {
                 for (words, request) in [("Go to", Request::GoToDefect(place)), ("Next", Request::StepDefect(1))] {

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, RichText, Role, Stroke, Vec2};
 use glam::DVec2;
 
-use crate::ui::editor::scene::PlaneScene;
+use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::state::Viewport;
-use crate::ui::{Control, Editor, Request, Tab, number, pairs, remark, short, theme_of};
+use crate::ui::{Control, Editor, Request, Tab, number, pairs, remark, sentence, short, theme_of};
 use crate::view::PlaneCamera;
 use freebound_core::flatten::equation_of_step;
 use freebound_core::mesh::VertexId;
@@ -23,6 +23,8 @@ const MET: f64 = 1e-7;
 const SPOKE: f32 = 5.0;
 /// Length of an arrow head, points.
 const HEAD: f32 = 7.0;
+/// Name of a neighbour that is no vertex of the surface.
+const VIRTUAL: &str = "virtual";
 
 /// Equation of a vertex, for the outcome on the screen.
 fn equation_of(
@@ -84,7 +86,7 @@ fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str
 
 /// Table of neighbour, k, d and share. A click on a neighbour selects it.
 fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests: &mut Vec<Request>) {
-    let count = editor.mesh_scene().map_or(0, |scene| scene.mesh().vertex_count());
+    let scene = editor.mesh_scene();
     let theme = theme_of(ui);
     egui::Grid::new("equation").num_columns(4).spacing([4.0, 2.0]).striped(true).show(ui, |ui| {
         let heads = [
@@ -100,20 +102,32 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
         }
         ui.end_row();
         for term in &equation.terms {
-            if term.neighbour.index() < count {
-                let link = ui.link(term.neighbour.to_string()).on_hover_text("Select this neighbour");
+            let name = scene.and_then(|scene| neighbour_words(scene, term.neighbour));
+            if let Some([words, tip]) = &name {
+                let link = ui.link(words.as_str()).on_hover_text(tip.as_str());
                 link.asks(Request::Select(vec![term.neighbour]), requests);
             } else {
-                ui.label("virtual").on_hover_text("Vertex of the frame around the mesh");
+                ui.label(VIRTUAL).on_hover_text("Vertex of the frame around the mesh, or in a hole");
             }
+            let at = name.as_ref().map_or(VIRTUAL, |[words, _]| words.as_str());
             for value in [term.weight, term.offset, term.share] {
                 let colour = if value < 0.0 { theme.flipped } else { theme.text };
                 let label = ui.label(RichText::new(format!("{:>8}", compact(value))).monospace().color(colour));
-                label.named(Role::Label, &format!("Equation at {}: {}", term.neighbour, compact(value)));
+                label.named(Role::Label, &format!("Equation at {at}: {}", compact(value)));
             }
             ui.end_row();
         }
     });
+}
+
+/// Name of a neighbour, and the tip of its link. A new vertex has the name of its edge. `None` for a virtual vertex.
+fn neighbour_words(scene: &MeshScene, neighbour: VertexId) -> Option<[String; 2]> {
+    let tip = "Select this neighbour";
+    if scene.new_vertex(neighbour).is_some() {
+        let about = sentence(&scene.vertex_words(neighbour));
+        return Some([scene.vertex_short_words(neighbour), format!("{about}. {tip}")]);
+    }
+    scene.number_of(neighbour).map(|number| [number.to_string(), tip.to_owned()])
 }
 
 fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {

@@ -46,9 +46,7 @@ fn go_to_window(
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let label = ui.label("Number of a vertex (12 or v12), an edge (e7) or a face (f3), from 0");
         let field = ui.add(egui::TextEdit::singleline(&mut go_to.text).desired_width(160.0)).labelled_by(label.id);
-        let wanted = Element::parse(&go_to.text);
-        let found = wanted.zip(editor.mesh_scene()).map(|(element, scene)| scene.vertices_of(element));
-        let found = found.filter(|vertices| !vertices.is_empty());
+        let found = Element::parse(&go_to.text).and_then(|element| editor.request_to_show(element));
         if !go_to.text.trim().is_empty() && found.is_none() {
             ui.colored_label(crate::ui::theme::theme_of(ui).flipped, "This mesh has no such element");
         }
@@ -58,8 +56,8 @@ fn go_to_window(
         if std::mem::take(&mut go_to.takes_keyboard) || (entered && found.is_none()) {
             field.request_focus();
         }
-        if let (true, Some(vertices)) = (entered || clicked, found) {
-            requests.push(Request::GoTo(vertices));
+        if let (true, Some(request)) = (entered || clicked, found) {
+            requests.push(request);
             gone = true;
         }
     });

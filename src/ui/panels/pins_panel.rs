@@ -82,6 +82,8 @@ fn no_pins(ui: &mut egui::Ui, is_on_page: bool) {
 #[derive(Clone, Copy)]
 struct Row {
     vertex: VertexId,
+    /// Number of the vertex in files.
+    number: VertexId,
     target: Target,
     /// Kind that the solver uses: a treatment may make a hard pin soft.
     held: PinKind,
@@ -110,7 +112,8 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             ui.end_row();
             for (&vertex, &target) in &document.targets {
                 let held = document.settings.kind_of(target.kind);
-                row(ui, editor, Row { vertex, target, held, speed }, requests);
+                let number = editor.session.number_of(vertex);
+                row(ui, editor, Row { vertex, number, target, held, speed }, requests);
                 ui.end_row();
                 if editor.session.pin_name(vertex).is_some() || chosen_pin == Some(vertex) {
                     name_row(ui, editor, vertex, requests);
@@ -122,10 +125,10 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
-    let Row { vertex, target, held, .. } = row;
+    let Row { vertex, number, target, held, .. } = row;
     hold_button(ui, row, requests);
     let selected = editor.selection.vertices().contains(&vertex);
-    let label = ui.selectable_label(selected, vertex.to_string());
+    let label = ui.selectable_label(selected, number.to_string());
     label.context_menu(|ui| vertex_menu(ui, editor, vertex, requests));
     let tip = "Click: select. Shift: select a range. Ctrl: add. Double click: show";
     let side = editor.mesh_scene().and_then(|scene| scene.side_of(vertex));
@@ -138,14 +141,14 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     coordinates(ui, row, requests);
     match (target.kind, held) {
         (PinKind::Soft(weight), _) => {
-            weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
+            weight_field(ui, &format!("Weight of pin {number}"), weight, &[vertex], requests);
         }
         (PinKind::Fixed | PinKind::Hard, PinKind::Soft(weight)) => {
             ui.weak(five_digits(weight)).on_hover_text("This treatment of pinned vertices makes hard pins soft");
         }
         (PinKind::Fixed | PinKind::Hard, PinKind::Fixed | PinKind::Hard) => exact(ui, editor, row, requests),
     }
-    let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {vertex}"));
+    let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {number}"));
     free.asks(Action::Unpin(vec![vertex]), requests);
 }
 
@@ -165,7 +168,7 @@ fn name_row(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut
     // A child of its own, because `put` would widen the column.
     let mut child = ui.new_child(egui::UiBuilder::new().max_rect(place));
     let response = child.add_sized(place.size(), field.desired_width(place.width()));
-    let response = response.named(Role::TextInput, &format!("Name of pin {vertex}"));
+    let response = response.named(Role::TextInput, &format!("Name of pin {}", editor.session.number_of(vertex)));
     names_menu(&mut child, editor, vertex, requests);
     let tip = "Name of this pin. It is saved, and joins the pin with a landmark of that name";
     let response = response.on_hover_text(if name.is_empty() { tip.to_owned() } else { format!("{name}\n{tip}") });
@@ -203,7 +206,8 @@ fn names_menu(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &m
             });
         }
     });
-    menu.on_hover_text("Names of landmarks on faces").named(Role::Button, &format!("Names for pin {vertex}"));
+    let name = format!("Names for pin {}", editor.session.number_of(vertex));
+    menu.on_hover_text("Names of landmarks on faces").named(Role::Button, &name);
 }
 
 /// Cell of a hard pin: its state, and a menu of other kinds.
@@ -219,11 +223,11 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
     };
     let button = egui::Button::new(RichText::new(words).color(colour)).frame(false);
     let (menu, _) = MenuButton::from_button(button).ui(ui, |ui| hold_entries(ui, vertex, row.target.kind, requests));
-    menu.on_hover_text(tip).named(Role::Button, &format!("State of pin {vertex}: {words}"));
+    menu.on_hover_text(tip).named(Role::Button, &format!("State of pin {}: {words}", row.number));
 }
 
 /// Mark of the pin. A click makes a hard pin soft and a soft pin hard.
-fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
+fn hold_button(ui: &mut egui::Ui, Row { vertex, number, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(14.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     PinMark::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
@@ -241,7 +245,7 @@ fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, request
         ("", "Soft pin, pulls with a weight. Click: make it hard")
     };
     let kind = if target.kind.is_hard() { PinKind::Soft(Pin::DEFAULT_WEIGHT) } else { PinKind::Hard };
-    let response = response.named(Role::Button, &format!("Kind of pin {vertex}: {words}{note}")).on_hover_text(tip);
+    let response = response.named(Role::Button, &format!("Kind of pin {number}: {words}{note}")).on_hover_text(tip);
     response.asks(Action::SetPinKind { vertices: vec![vertex], kind }, requests);
 }
 
@@ -260,7 +264,7 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     }
 }
 
-fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, requests: &mut Vec<Request>) {
+fn coordinates(ui: &mut egui::Ui, Row { vertex, number, target, speed, .. }: Row, requests: &mut Vec<Request>) {
     let target = target.uv;
     let mut moved = target;
     let mut has_ended = false;
@@ -269,7 +273,7 @@ fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, reques
         let typed = Typed::new("a coordinate", f64::MIN..=f64::MAX);
         let drag = coordinate(&mut moved[axis], speed, &typed);
         let field = ui.add_sized([FIELDS[0], 20.0], drag).on_hover_text(tip);
-        has_ended |= typed.name(ui, field, &format!("{name} of pin {vertex}")).has_ended();
+        has_ended |= typed.name(ui, field, &format!("{name} of pin {number}")).has_ended();
     }
     if moved != target && moved.is_finite() {
         requests.push(Action::MovePin { vertex, target: moved }.into());
@@ -344,7 +348,8 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         0 => "Targets too close together".to_owned(),
         count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
     };
-    let words = format!("{words}: {}", named(&first.vertices()));
+    let numbers: Vec<VertexId> = first.vertices().into_iter().map(|vertex| editor.session.number_of(vertex)).collect();
+    let words = format!("{words}: {}", named(&numbers));
     let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
     let about = sentence(&editor.session.conflict_words(first));
     link.on_hover_text(about).asks(Request::GoTo(first.vertices()), requests);
@@ -361,16 +366,17 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn equal_targets(ui: &mut egui::Ui, editor: &Editor, pair: [VertexId; 2], requests: &mut Vec<Request>) {
     let [kept, other] = pair;
     let [kept_words, other_words] = pair.map(|vertex| editor.session.pin_words(vertex));
+    let [kept_number, other_number] = pair.map(|vertex| editor.session.number_of(vertex));
     remark(ui, format!("Pins {kept_words} and {other_words} have nearly equal targets."));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let merge = ui.small_button(format!("Keep only {kept}"));
+        let merge = ui.small_button(format!("Keep only {kept_number}"));
         let tip = format!("Merge: keep pin {kept_words} and free pin {other_words}");
         merge.on_hover_text(tip).asks(Action::MergePins(pair), requests);
-        let merge = ui.small_button(format!("Keep only {other}"));
+        let merge = ui.small_button(format!("Keep only {other_number}"));
         let tip = format!("Merge: keep pin {other_words} and free pin {kept_words}");
         merge.on_hover_text(tip).asks(Action::MergePins([other, kept]), requests);
-        let loosen = ui.small_button(format!("Loosen {other}"));
+        let loosen = ui.small_button(format!("Loosen {other_number}"));
         let tip = format!("Make pin {other_words} soft: it pulls to its target, but need not meet it");
         let kind = PinKind::Soft(Pin::DEFAULT_WEIGHT);
         loosen.on_hover_text(tip).asks(Action::SetPinKind { vertices: vec![other], kind }, requests);
@@ -393,7 +399,8 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
         .into_iter()
         .filter_map(|(worst, kind)| {
             let (error, vertex) = worst?;
-            Some(if error == 0.0 { format!("{kind} 0") } else { format!("{kind} {error:.2e} at {vertex}") })
+            let at = editor.session.number_of(vertex);
+            Some(if error == 0.0 { format!("{kind} 0") } else { format!("{kind} {error:.2e} at {at}") })
         })
         .collect();
     if !words.is_empty() {

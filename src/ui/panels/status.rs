@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use eframe::egui::{self, RichText};
 
-use super::vertex_panel::new_vertex_words;
 use crate::session::{Action, Status};
 use crate::ui::panes::page_pane::{numbers as page_numbers, texture_coordinates};
 use crate::ui::timeline::PRESS_SPACE;
 use crate::ui::{Editor, FileDialogKind, Request, Tool, short, theme_of, with_keys_set};
+use crate::view::ElementKind;
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let has_shift = ui.input(|input| input.modifiers.shift);
@@ -34,6 +34,7 @@ fn with_keys(context: &egui::Context, hint: &str) -> String {
         (["", "L", " locks"], Request::ToggleLock),
         (["", "L", " unlocks"], Request::ToggleLock),
         (["", "F", " frames"], Request::Frame),
+        (["", "Shift+X", " cuts"], Request::CutSelection),
     ];
     usual.iter().fold(hint.to_owned(), |hint, (keys, request)| with_keys_set(context, &hint, *keys, request))
 }
@@ -52,6 +53,12 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
         }
         Tool::Select if editor.plane.page.gesture().is_some() => {
             "X or Y locks an axis. Type a number. Ctrl snaps, Alt lets charts overlap. Click or Enter ends, Esc cancels."
+        }
+        Tool::Select if editor.shows_page() && editor.element_kind().is_some() => {
+            "Click selects, Shift + click adds or removes; Ctrl + drag selects a box. F frames. Enter shows the chart alone."
+        }
+        Tool::Select if editor.element_kind() != Some(ElementKind::Vertices) && !editor.shows_page() => {
+            "Click selects, Shift + click adds or removes; Ctrl + drag selects a box. Shift+X cuts along the selection."
         }
         Tool::Select if editor.shows_page() && editor.plane.page.selected().is_empty() => {
             "Click a chart to select it; Ctrl + drag selects a box. Drag a chart to move it. Double click shows it alone."
@@ -96,9 +103,10 @@ fn numbers(editor: &Editor) -> String {
         let at = editor.session.document().frame().uv_from_plane(place);
         parts.push(format!("u {} v {}", short(at.x), short(at.y)));
     }
-    if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
-        parts.push(vertex.to_string());
-        parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+    if let (Some(element), Some(scene)) = (editor.pointer.element(), editor.mesh_scene()) {
+        parts.push(scene.element_words(element));
+    } else if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
+        parts.push(scene.vertex_words(vertex));
         parts.extend(scene.side_of(vertex).map(|side| side.to_string()));
         if let Some(x) = scene.mesh().positions.get(vertex.index()) {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));

@@ -96,7 +96,7 @@ fn pill(editor: &Editor) -> Option<Pill> {
         return of_page(editor);
     }
     Some(match session.status() {
-        Status::Preview(Some(Preview { live: Some(live), .. })) => of_live(*live),
+        Status::Preview(Some(Preview { live: Some(live), .. })) => of_live(session, *live),
         Status::Preview(preview) => {
             let tip = "Preview of the first, linear step. Repair starts when you pause or release the pin";
             Pill::new(Sign::Warning, preview_words(preview), tip)
@@ -197,19 +197,19 @@ fn of_step(step: &Step) -> Pill {
 }
 
 /// Planar embedding of a live drag, proved at every frame.
-fn of_live(LivePreview { obstacle }: LivePreview) -> Pill {
+fn of_live(session: &Session, LivePreview { obstacle }: LivePreview) -> Pill {
     let tip = "Exact arithmetic shows for every frame that no two faces overlap. The rest of the map follows when \
                you pause or release";
-    let words =
-        obstacle.map_or_else(|| "Planar: proved".to_owned(), |by| format!("Planar: proved · {}", in_the_way(by)));
+    let words = obstacle
+        .map_or_else(|| "Planar: proved".to_owned(), |by| format!("Planar: proved · {}", in_the_way(session, by)));
     Pill::new(Sign::Good, words, tip)
 }
 
 /// Obstacle of a dragged pin, in few words.
-fn in_the_way(obstacle: Blocker) -> String {
+fn in_the_way(session: &Session, obstacle: Blocker) -> String {
     match obstacle {
-        Blocker::Pin(vertex) => format!("{vertex} is in the way"),
-        Blocker::Boundary(vertex) => format!("the boundary at {vertex} is in the way"),
+        Blocker::Pin(vertex) => format!("{} is in the way", session.number_of(vertex)),
+        Blocker::Boundary(vertex) => format!("the boundary at {} is in the way", session.number_of(vertex)),
         Blocker::Surroundings => "the rest of the map follows when you pause".to_owned(),
     }
 }

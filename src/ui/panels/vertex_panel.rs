@@ -7,13 +7,27 @@ use eframe::egui;
 use super::equation_table;
 use super::hull_section::hull_rows;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Request, number, pairs, short, with_keys_set};
-use freebound_core::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
+use crate::ui::editor::scene::MeshScene;
+use crate::ui::{Control, Editor, Request, number, pairs, sentence, short, with_keys_set};
+use freebound_core::mesh::{DiskMesh, HalfedgeId, VertexId};
 use freebound_core::problem::Embedding;
 
 fn no_vertex(ui: &mut egui::Ui) {
     let words = "Select a vertex: click one in either pane, or press G and type its number.";
     ui.label(with_keys_set(ui.ctx(), words, ["press ", "G", " and"], &Request::AskGoTo));
+}
+
+/// Name of the vertex, and buttons beside it.
+fn name_row(ui: &mut egui::Ui, scene: &MeshScene, vertex: VertexId, requests: &mut Vec<Request>) {
+    if let Some(of_file) = scene.number_of(vertex) {
+        ui.strong(of_file.to_string());
+        if ui.small_button("Copy").on_hover_text("Copy the number").clicked() {
+            ui.ctx().copy_text(of_file.number().to_string());
+        }
+    } else {
+        ui.strong(sentence(&scene.vertex_words(vertex))).on_hover_text(NOT_TO_PIN);
+    }
+    ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
 }
 
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -25,21 +39,13 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
     let Some(scene) = editor.mesh_scene() else { return };
     let Some(position) = scene.mesh().positions.get(vertex.index()) else { return };
-    ui.horizontal(|ui| {
-        ui.strong(vertex.to_string());
-        if ui.small_button("Copy").on_hover_text("Copy the number").clicked() {
-            ui.ctx().copy_text(vertex.number().to_string());
-        }
-        ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
-    });
-    if let Some(chart) = editor.session.chart_on_screen().filter(|_| scene.new_vertex(vertex).is_none()) {
-        ui.label(format!("chart {chart}; {} in files", scene.model.vertex_in_file(vertex)));
+    ui.horizontal(|ui| name_row(ui, scene, vertex, requests));
+    if let Some(chart) = editor.session.chart_on_screen() {
+        let name = editor.session.chart_name(chart).map(|name| format!(": {name}")).unwrap_or_default();
+        ui.label(format!("Chart {chart}{name}"));
     }
     if let Some(side) = scene.side_of(vertex) {
         ui.label(side.to_string()).on_hover_text("Each side of a seam has a vertex of its own, with its own pin");
-    }
-    if let Some(new) = scene.new_vertex(vertex) {
-        ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
     let embedding = editor.step_on_screen().map(|outcome| &outcome.step.candidate.solution.embedding);
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
@@ -78,13 +84,8 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
 }
 
-/// Location of a new vertex.
-pub(super) fn new_vertex_words(new: &NewVertex) -> String {
-    let [a, b] = new.edge;
-    format!("new vertex on edge {a}–{b}")
-}
-
-pub(super) const NOT_TO_PIN: &str = "It exists in this embedding only and cannot be pinned";
+/// Explanation of a new vertex.
+const NOT_TO_PIN: &str = "It exists in this embedding only and cannot be pinned";
 
 /// Formats an angle sum as a multiple of a full turn.
 fn turns(angle: f64) -> String {

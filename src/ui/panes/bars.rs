@@ -209,7 +209,8 @@ fn message_buttons(ui: &mut egui::Ui, editor: &Editor, message: &Message, reques
     if !message.vertices.is_empty() {
         let kind = if message.vertices.len() == 1 { "vertex" } else { "vertices" };
         let button = ui.small_button(format!("Go to {kind} {}", named(&message.vertices)));
-        button.on_hover_text("Show it in both panes").asks(Request::GoTo(message.vertices.clone()), requests);
+        let request = Request::GoToFileVertices(message.vertices.clone());
+        button.on_hover_text("Show it in both panes").asks(request, requests);
     }
     if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
         ui.ctx().copy_text(message.text.clone());

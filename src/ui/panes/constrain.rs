@@ -127,15 +127,16 @@ impl Editor {
     /// Hint for the status bar.
     pub(in crate::ui) fn constrain_words(&self) -> String {
         let numbers = |target: DVec2| format!("u {:.4} v {:.4}", target.x, target.y);
+        let number = |vertex: VertexId| self.session.number_of(vertex);
         match (self.tools.intent(), self.tools.pair()) {
-            (Intent::Join(vertex, target), _) => format!("Click: {vertex} goes to {}.", numbers(target)),
-            (Intent::Select(vertex), _) => format!("Click: select the pin of {vertex}."),
-            (Intent::TakeVertex(vertex), _) => format!("Click: choose {vertex}, then its position."),
+            (Intent::Join(vertex, target), _) => format!("Click: {} goes to {}.", number(vertex), numbers(target)),
+            (Intent::Select(vertex), _) => format!("Click: select the pin of {}.", number(vertex)),
+            (Intent::TakeVertex(vertex), _) => format!("Click: choose {}, then its position.", number(vertex)),
             (Intent::TakeTarget(target), _) => {
                 format!("Click: choose the position {}, then the vertex.", numbers(target))
             }
             (Intent::Nothing, Some(Half::Vertex(vertex))) => {
-                format!("Click the position of {vertex} in the embedding. Esc cancels.")
+                format!("Click the position of {} in the embedding. Esc cancels.", number(vertex))
             }
             (Intent::Nothing, Some(Half::Target(target))) => {
                 if let Some(landmark) = self.session.landmark_at(target) {

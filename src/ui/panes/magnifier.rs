@@ -23,8 +23,6 @@ use freebound_core::mesh::VertexId;
 const GAP: f32 = 12.0;
 /// Height of the title above the picture of a defect, points.
 const TITLE: f32 = 20.0;
-/// Least width of an inset with a description, points. A narrower one shows only the magnification.
-const ROOM_FOR_WORDS: f32 = 180.0;
 /// Half of the shown side, in lengths of the defect.
 const REACH: f64 = 0.7;
 /// Least side of the frame on the layout, points, so that it can be seen.
@@ -112,10 +110,13 @@ impl Magnifier {
         painter.rect_filled(self.rect, 4.0, theme.panel);
         let title = self.rect.min + Vec2::new(8.0, TITLE / 2.0);
         let font = FontId::proportional(11.0);
-        painter.text(title, Align2::LEFT_CENTER, format!("× {}", self.factor()), font.clone(), theme.text);
-        if self.rect.width() >= ROOM_FOR_WORDS {
-            let right = Pos2::new(self.rect.right() - 24.0, title.y);
-            painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), font, theme.weak_text);
+        let factor = painter.text(title, Align2::LEFT_CENTER, format!("× {}", self.factor()), font.clone(), theme.text);
+        let words = painter.layout_no_wrap(self.defect.words(&plane.mesh), font, theme.weak_text);
+        let right = Pos2::new(self.rect.right() - 24.0, title.y);
+        let room = Align2::RIGHT_CENTER.anchor_size(right, words.size());
+        // A narrow inset shows only the magnification.
+        if room.left() > factor.right() + GAP {
+            painter.galley(room.min, words, theme.weak_text);
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
         if editor.gpu.has_gpu() {
@@ -123,11 +124,11 @@ impl Magnifier {
         }
         pane::plane_marks(ui, Viewport { rect: picture, camera: self.camera }, editor, plane);
         painter.rect_stroke(self.rect, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
-        self.click(ui, requests);
+        self.click(ui, &plane.mesh, requests);
     }
 
-    fn click(&self, ui: &egui::Ui, requests: &mut Vec<Request>) {
-        let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
+    fn click(&self, ui: &egui::Ui, scene: &MeshScene, requests: &mut Vec<Request>) {
+        let name = format!("Magnifier: {}, × {}", self.defect.words(scene), self.factor());
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
         let tip = format!("Close-up of a defect. The wheel zooms, drag pans. Click to go there; {keys}: next defect");
         let about = InsetSubject::Defect(self.place);
@@ -274,7 +275,7 @@ pub(super) fn over_mesh(
     if let Some(at) = (Viewport { rect: inset, camera }).spot(position) {
         pane::halo(&ui.painter_at(inset), at, theme.selection, 7.0);
     }
-    let name = format!("Magnifier: {vertex} on the mesh");
+    let name = format!("Magnifier: {} on the mesh", editor.session.number_of(vertex));
     let shown = Inset { kind, rect: inset, role: Role::Image, name: &name, about };
     close(ui, &shown, enlarges, requests);
 }
@@ -318,8 +319,8 @@ pub(super) fn over_plane(
         pins::ghost(&painter, near.spot(target), theme);
     }
     painter.circle_stroke(near.spot(target), 11.0, Stroke::new(1.0, theme.selection));
-    let words = editor.vertex_in_hand().map_or_else(|| "the target".to_owned(), |v| format!("the target of {v}"));
-    let name = format!("Magnifier: {words}");
+    let of = editor.vertex_in_hand().map(|vertex| format!(" of {}", editor.session.number_of(vertex)));
+    let name = format!("Magnifier: the target{}", of.unwrap_or_default());
     let shown = Inset { kind, rect: inset, role: Role::Image, name: &name, about };
     close(ui, &shown, enlarges, requests);
 }

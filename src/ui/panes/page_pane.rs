@@ -368,6 +368,8 @@ pub(super) fn waiting_words(editor: &Editor) -> Vec<String> {
 /// Data of the chart under the pointer, or of the selection, for the status bar.
 pub(in crate::ui) fn numbers(editor: &Editor) -> Vec<String> {
     let mut parts = Vec::new();
+    let element = editor.pointer.element().zip(editor.plane.page.scene());
+    parts.extend(element.and_then(|(element, scene)| scene.element_words(element)));
     let atlas = editor.session.newest_atlas();
     if let Some(chart) = editor.plane.page.hovered() {
         let name = editor.session.chart_name(chart).map(|name| format!(" {name}")).unwrap_or_default();

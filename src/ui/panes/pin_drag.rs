@@ -80,7 +80,8 @@ impl Grip {
         let grab = if seen.is_positive() { seen } else { grab };
         // The pane takes the click that completes a pair, even over a pin.
         let sense = if editor.tools.pair().is_some() { Sense::hover() } else { Sense::click_and_drag() };
-        ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense).named(Role::Button, &kind.name(vertex))
+        let name = kind.name(editor.session.number_of(vertex));
+        ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense).named(Role::Button, &name)
     }
 
     fn drag(&self, ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {

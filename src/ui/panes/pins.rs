@@ -43,12 +43,12 @@ pub enum PinMark {
 }
 
 impl PinMark {
-    /// Name of the pin, for screen readers.
-    pub fn name(self, vertex: VertexId) -> String {
+    /// Name of the pin of the vertex with this number in files, for screen readers.
+    pub fn name(self, number: VertexId) -> String {
         match self {
-            Self::Gauge => format!("Gauge pin {vertex}"),
-            Self::User(PinKind::Fixed) => format!("Pin {vertex}"),
-            Self::User(PinKind::Hard | PinKind::Soft(_)) => format!("Constraint {vertex}"),
+            Self::Gauge => format!("Gauge pin {number}"),
+            Self::User(PinKind::Fixed) => format!("Pin {number}"),
+            Self::User(PinKind::Hard | PinKind::Soft(_)) => format!("Constraint {number}"),
         }
     }
 

@@ -22,7 +22,7 @@ pub(super) fn of_pane(response: &Response, editor: &mut Editor, requests: &mut V
 
 /// Entries for a vertex.
 pub(in crate::ui) fn vertex_menu(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
-    ui.weak(vertex.to_string());
+    ui.weak(editor.vertex_words(vertex));
     let document = editor.session.document();
     match document.targets.get(&vertex) {
         _ if editor.is_new_vertex(vertex) => {

@@ -115,6 +115,8 @@ pub enum Request {
     GoTo(Vec<VertexId>),
     /// Shows faces of the file in both panes, with the chart of the first one, and selects their vertices.
     GoToFileFaces(Vec<FaceId>),
+    /// Shows vertices by their numbers in files, with the chart of the first one, and selects them.
+    GoToFileVertices(Vec<VertexId>),
     /// Shows a defect in both panes, by its place in the list.
     GoToDefect(usize),
     /// Shows another defect: 1 is the next, −1 the previous.

@@ -155,6 +155,14 @@ impl PageScene {
         Some(VertexId::from_index(span.vertices.start + vertex.index()))
     }
 
+    /// Chart of a triangle, and the number in files of its face.
+    pub(in crate::ui) fn face_number(&self, face: FaceId) -> Option<(usize, FaceId)> {
+        let chart = self.spans.partition_point(|span| span.faces.end <= face.index());
+        let (span, on_page) = (self.spans.get(chart)?, self.charts.get(chart)?);
+        let local = FaceId::from_index(face.index() - span.faces.start);
+        Some((chart, FaceId::new(on_page.mesh().mesh().polygon(local))))
+    }
+
     /// Model of a chart.
     pub(in crate::ui) fn model_of(&self, chart: usize) -> Option<&Model> {
         self.charts.get(chart).map(|chart| chart.model.as_ref())
