@@ -75,6 +75,18 @@ pub(in crate::ui) fn accented(words: impl Into<String>, theme: &Theme) -> egui::
     egui::Button::new(RichText::new(words.into()).color(theme.panel).strong()).fill(theme.accent)
 }
 
+/// Button of [`accented`] if it is enabled. Disabled, it has no accent colour, on which its faded words are hard to read.
+pub(in crate::ui) fn accented_if(ui: &mut Ui, is_enabled: bool, words: impl Into<String>, theme: &Theme) -> Response {
+    let button = if is_enabled { accented(words, theme) } else { egui::Button::new(words.into()) };
+    ui.add_enabled(is_enabled, button)
+}
+
+/// Row of the buttons of a dialog, at its right edge. `add` adds the primary button first: it is the rightmost.
+pub(in crate::ui) fn dialog_buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    let size = egui::Vec2::new(ui.min_rect().width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::right_to_left(egui::Align::Center), add);
+}
+
 /// Greatest height of an open list, points.
 const LIST_HEIGHT: f32 = 480.0;
 

@@ -43,8 +43,8 @@ mod window;
 
 pub use controls::sentence;
 use controls::{
-    Control, Offer, accented, close_button, counted, figures, five_digits, head, heads, list, number, open_list,
-    option_list, pairs, read_more, remark, short, tip_with_keys,
+    Control, Offer, accented, accented_if, close_button, counted, dialog_buttons, figures, five_digits, head, heads,
+    list, number, open_list, option_list, pairs, read_more, remark, short, tip_with_keys,
 };
 pub(crate) use dialogs::Dialogs;
 pub use editor::{Defect, Editor, MorphView};

@@ -138,6 +138,11 @@ impl<'a> ElementMesh<'a> {
         Self { sets, parts }
     }
 
+    /// Corners of a triangle, if there is one of this number.
+    pub fn triangle(&self, face: FaceId) -> Option<[VertexId; 3]> {
+        self.sets.triangles.get(face.index()).copied()
+    }
+
     /// Triangles of the face with a triangle. Sets `corners` to the corners of the face.
     fn face(&self, triangle: usize, corners: &mut Vec<VertexId>) -> Range<usize> {
         corners.clear();

@@ -234,3 +234,16 @@ fn edges_and_faces_of_a_chart_alone_are_picked_in_both_panes() {
     }
     assert!(window.rect(Role::ComboBox, "What clicks select").width() > 20.0);
 }
+
+#[test]
+fn a_cut_along_all_edges_gives_each_face_a_chart_of_its_own() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.4));
+    window.press(CTRL, Key::Num2);
+    window.press(CTRL, Key::A);
+    window.press(Modifiers::SHIFT, Key::X);
+    until_proved(&mut window);
+    assert_eq!(window.editor().session.charts().map(|charts| charts.count()), Some(32));
+    window.press(CTRL, Key::Z);
+    window.settle();
+    assert!(window.editor().session.charts().is_none() && window.is_proved());
+}

@@ -445,7 +445,7 @@ fn requests_to_the_page_do_nothing_without_a_page() {
 const WALK: u64 = 200;
 
 /// Keys of a walk, by their modifiers.
-const WALK_KEYS: [(Modifiers, &[Key]); 7] = [
+const WALK_KEYS: [(Modifiers, &[Key]); 9] = [
     (Modifiers::NONE, &[Key::G, Key::R, Key::S, Key::X, Key::Y, Key::Enter, Key::Escape, Key::L, Key::F]),
     (Modifiers::NONE, &[Key::Num1, Key::Num9, Key::Minus, Key::Period, Key::Backspace, Key::V, Key::P, Key::Tab]),
     (Modifiers::NONE, &[Key::ArrowLeft, Key::ArrowUp, Key::PageDown, Key::G, Key::G, Key::Enter]),
@@ -453,6 +453,8 @@ const WALK_KEYS: [(Modifiers, &[Key]); 7] = [
     (Modifiers::COMMAND.plus(Modifiers::SHIFT), &[Key::Z]),
     (Modifiers::SHIFT, &[Key::P, Key::C]),
     (Modifiers::NONE, &[Key::B, Key::B, Key::OpenBracket, Key::CloseBracket]),
+    (Modifiers::COMMAND, &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::L, Key::OpenBracket, Key::CloseBracket]),
+    (Modifiers::ALT, &[Key::L, Key::R, Key::Z]),
 ];
 
 /// Brushes of a walk, by their buttons.
@@ -525,7 +527,8 @@ impl Walk {
         let shows_page = self.window.editor().shows_page() && self.view(PLANE_VIEW).is_some();
         let count = self.window.editor().session.page().filter(|_| shows_page).map_or(0, |page| page.charts.len());
         let from = if count > 0 { middle(&self.window, self.random.index(count)) } else { from };
-        let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::COMMAND]);
+        let stroke = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+        let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::COMMAND, stroke]);
         self.say(format!("drag from {from} to {to} with {modifiers:?}"));
         self.window.begin_drag(from, from + (to - from) / 2.0, modifiers);
         self.window.harness.hover_at(to);
@@ -565,6 +568,8 @@ fn the_page_agrees_with_the_layout_whatever_is_pressed() {
         walk.act();
         let count = walk.window.editor().session.charts().map_or(0, |charts| charts.count());
         assert!(selected(&walk.window).iter().all(|&chart| chart < count), "{:?}", walk.done);
+        let elements = walk.window.editor().plane.page.elements();
+        assert!(elements.is_empty() || selected(&walk.window).is_empty(), "{:?}", walk.done);
         if action % 5 == 0 {
             walk.rest();
         }

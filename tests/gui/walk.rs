@@ -27,9 +27,11 @@ const ACTIONS: u32 = 300;
 /// Greatest number of walks until the pill has said everything.
 const MOST_WALKS: u64 = 6;
 
-/// True for the keys of the command palette, which runs any command.
-fn finds(shortcut: egui::KeyboardShortcut) -> bool {
-    shortcut.logical_key == Key::P && shortcut.modifiers.command
+/// True for the keys of the command palette, which runs any command, and of cuts, which make charts: these have a walk of
+/// their own.
+fn leaves_the_sheet(shortcut: egui::KeyboardShortcut) -> bool {
+    let egui::KeyboardShortcut { logical_key, modifiers } = shortcut;
+    logical_key == Key::P && modifiers.command || logical_key == Key::X && modifiers.shift
 }
 
 /// Lengths of frames, seconds.
@@ -115,10 +117,15 @@ impl Walk {
 
     /// Key of a binding, sometimes with another modifier or repeated.
     fn keys(&mut self) -> Vec<Event> {
-        let bound: Vec<_> =
-            BINDINGS.iter().map(|b| b.shortcut).filter(|s| !LEFT_OUT.contains(&s.logical_key) && !finds(*s)).collect();
+        let bound: Vec<_> = BINDINGS
+            .iter()
+            .map(|b| b.shortcut)
+            .filter(|s| !LEFT_OUT.contains(&s.logical_key) && !leaves_the_sheet(*s))
+            .collect();
         let shortcut = self.one_of(&bound);
         let other = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::SHIFT]);
+        let pressed = egui::KeyboardShortcut::new(shortcut.modifiers | other, shortcut.logical_key);
+        let other = if leaves_the_sheet(pressed) { Modifiers::NONE } else { other };
         let times = self.one_of(&[1, 1, 1, 2, 4]);
         self.say(format!("{times} × {:?} with {:?}", shortcut.logical_key, shortcut.modifiers | other));
         let presses = key(shortcut.logical_key, shortcut.modifiers | other);

@@ -11,7 +11,7 @@ use super::browser::{Browser, DialogAnswer};
 use super::listing::{Entry, ListColumn, date_words, size_words};
 use crate::session::KeptFolders;
 use crate::ui::theme::{HOVERED, SELECTED};
-use crate::ui::{Control, accented, icons, remark, theme_of};
+use crate::ui::{Control, accented, accented_if, icons, remark, theme_of};
 
 /// Height of a row, points.
 const ROW: f32 = 22.0;
@@ -388,7 +388,7 @@ impl Browser {
     fn buttons(&mut self, ui: &mut Ui) {
         let words = self.form().title.split(' ').next().unwrap_or_default();
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.add_enabled(self.can_confirm(), accented(words, theme_of(ui))).clicked() {
+            if accented_if(ui, self.can_confirm(), words, theme_of(ui)).clicked() {
                 self.confirm();
             }
             if ui.button("Cancel").on_hover_text("Close this dialog (Esc)").clicked() {

@@ -4,7 +4,7 @@ use eframe::egui::{self, Align2, DragValue, Grid, Role};
 
 use crate::ui::editor::BakeChoice;
 use crate::ui::state::{ExportOptions, FileDialogKind, NO_LAYOUT_PICTURE, NO_MAP};
-use crate::ui::{Control, Editor, Request, accented, list, option_list, theme_of};
+use crate::ui::{Control, Editor, Request, accented_if, dialog_buttons, list, option_list, theme_of};
 use freebound_core::geom::Picture;
 use freebound_io::PatternOptions;
 
@@ -47,11 +47,11 @@ pub(super) fn export_options(context: &egui::Context, editor: &mut Editor, reque
             }
         });
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
+        dialog_buttons(ui, |ui| {
             let theme = theme_of(ui);
             let name = format!("Export: {title}…");
             let is_possible = solved && (shown == ExportOptions::Pattern || editor.session.can_bake());
-            let export = ui.add_enabled(is_possible, accented("Export…", theme)).named(Role::Button, &name);
+            let export = accented_if(ui, is_possible, "Export…", theme).named(Role::Button, &name);
             let tip = match shown {
                 ExportOptions::Pattern => "PDF, SVG or DXF, by the end of the name",
                 ExportOptions::Baked => "A PNG picture",

@@ -7,7 +7,7 @@ use crate::ui::commands::matches_words;
 use crate::ui::key_map::{KeyMap, KeyPreset, shortcut_of_press};
 use crate::ui::keys::{BINDINGS, MOUSE, shortcut_words};
 use crate::ui::state::{KeyClash, KeyList};
-use crate::ui::{Control, Editor, Request, Tool, accented, remark, theme_of};
+use crate::ui::{Control, Editor, Request, Tool, accented_if, remark, theme_of};
 
 /// Tasks that the list is grouped by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,7 +162,7 @@ fn head(ui: &mut egui::Ui, list: &mut KeyList, map: &mut KeyMap) {
         let tip = format!("“{}” gets {other}", BINDINGS[owner].about);
         // The binding that ends gestures keeps its key.
         let can_swap = is_free(owner);
-        if ui.add_enabled(can_swap, accented("Swap", theme_of(ui))).on_hover_text(tip).clicked() {
+        if accented_if(ui, can_swap, "Swap", theme_of(ui)).on_hover_text(tip).clicked() {
             map.change(place, shortcut);
             list.clash = None;
         }

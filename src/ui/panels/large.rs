@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::session::Action;
-use crate::ui::{Control, Editor, Request, accented, theme_of};
+use crate::ui::{Control, Editor, Request, accented, dialog_buttons, theme_of};
 
 impl Editor {
     /// True if a modal question is open.
@@ -31,10 +31,10 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
             file.shortage
         ));
         ui.add_space(12.0);
-        ui.horizontal(|ui| {
+        dialog_buttons(ui, |ui| {
             // The button that risks nothing is the primary one.
-            ui.button("Open").asks(Request::Do(Action::OpenLarge), requests);
             ui.add(accented("Cancel", theme_of(ui))).asks(Request::Do(Action::LeaveLarge), requests);
+            ui.button("Open").asks(Request::Do(Action::OpenLarge), requests);
         });
     });
 }

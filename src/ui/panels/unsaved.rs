@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::ui::state::{PendingClose, UnsavedAnswer};
-use crate::ui::{Control, Editor, Request, accented, theme_of};
+use crate::ui::{Control, Editor, Request, accented, dialog_buttons, theme_of};
 
 /// Keeps the window open if the user closes it with unsaved work, and asks.
 pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
@@ -26,7 +26,7 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
             PendingClose::Do(_) => "Its changes are lost when something else opens.",
         });
         ui.add_space(12.0);
-        ui.horizontal(|ui| {
+        dialog_buttons(ui, |ui| {
             ui.add(accented("Save", theme_of(ui))).asks(Request::Answer(UnsavedAnswer::Save), requests);
             for (answer, words) in [(UnsavedAnswer::DontSave, "Don't save"), (UnsavedAnswer::Cancel, "Cancel")] {
                 ui.button(words).asks(Request::Answer(answer), requests);

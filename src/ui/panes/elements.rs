@@ -21,8 +21,11 @@ use freebound_core::mesh::VertexId;
 /// Width of the edges of a selection, points.
 const WIDTH: f32 = 2.5;
 
-/// Greatest number of dots on selected vertices.
-const DOTS_SHOWN: usize = 2000;
+/// Greatest number of selected vertices with dots, and of selected triangles with a tint.
+const MARKS_SHOWN: usize = 2000;
+
+/// Opacity of the tint of selected faces.
+const TINT: f32 = 0.25;
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
@@ -163,19 +166,29 @@ pub(super) fn mark_under_pointer(
     }
 }
 
-/// Dots on the selected vertices. `spot` is the place of a vertex on the screen, and true if it is seen.
-pub(super) fn dots(
+/// Marks what is selected: dots on vertices, a tint on faces. `spot` is the place of a vertex on the screen, and true if
+/// it is seen. The edges are drawn with the mesh.
+pub(super) fn mark_selection(
     painter: &Painter,
     elements: &ElementSet,
+    mesh: &ElementMesh<'_>,
     theme: &Theme,
     spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
 ) {
-    if elements.kind() != ElementKind::Vertices {
-        return;
+    if elements.kind() == ElementKind::Vertices {
+        for (at, is_seen) in elements.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| spot(vertex)) {
+            // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
+            let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
+            pane::dot(painter, at, colour);
+        }
     }
-    for (at, is_seen) in elements.vertices().iter().take(DOTS_SHOWN).filter_map(|&vertex| spot(vertex)) {
-        // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
-        let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
-        pane::dot(painter, at, colour);
+    let mut tint = egui::Mesh::default();
+    for corners in elements.faces().iter().take(MARKS_SHOWN).filter_map(|&face| mesh.triangle(face)) {
+        if let [Some((a, true)), Some((b, true)), Some((c, true))] = corners.map(&spot) {
+            let first = u32::try_from(tint.vertices.len()).unwrap_or_default();
+            [a, b, c].into_iter().for_each(|at| tint.colored_vertex(at, theme.selection.gamma_multiply(TINT)));
+            tint.add_triangle(first, first + 1, first + 2);
+        }
     }
+    painter.add(tint);
 }

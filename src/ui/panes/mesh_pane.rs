@@ -331,8 +331,9 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
         }
     }
-    elements::dots(&painter, editor.selection.elements(), theme, place);
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, seen);
+    let mesh = scene.elements();
+    elements::mark_selection(&painter, editor.selection.elements(), &mesh, theme, place);
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
     let vertex = editor.pointer.vertex().filter(|_| editor.pointer.element().is_none());
     if let Some((vertex, at)) = vertex.and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });

@@ -95,8 +95,9 @@ fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, scene: 
 fn element_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene: &PageScene) {
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| Some(view.spot(scene.place_of(vertex)?));
-    elements::dots(&painter, editor.plane.page.elements(), theme, |vertex| Some((spot(vertex)?, true)));
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, spot);
+    let (mesh, selected) = (scene.elements(), editor.plane.page.elements());
+    elements::mark_selection(&painter, selected, &mesh, theme, |vertex| Some((spot(vertex)?, true)));
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, spot);
 }
 
 /// Press of the left button on a chart, which moves the selected charts and not the camera.
@@ -246,9 +247,10 @@ fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Ed
         let at = view.spot(*picker.positions().get(vertex.index())?)?;
         Some((at, picker.is_visible(vertex, eye)))
     };
-    elements::dots(&painter, editor.plane.page.elements(), theme, place);
+    let mesh = scene.elements();
+    elements::mark_selection(&painter, editor.plane.page.elements(), &mesh, theme, place);
     let seen = |vertex| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &scene.elements(), theme, seen);
+    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
 }
 
 /// Lines of the outlines: all, those under the pointer, and those that are selected.

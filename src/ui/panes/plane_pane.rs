@@ -223,8 +223,9 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
         seam::over_plane(ui, view, editor, plane);
     }
     let seen = |vertex: VertexId| Some(view.spot(plane.position_of(vertex)?));
-    elements::dots(&over, editor.selection.elements(), theme, |vertex| Some((seen(vertex)?, true)));
-    elements::mark_under_pointer(&over, editor.pointer.element(), &plane.mesh.elements(), theme, seen);
+    let mesh = plane.mesh.elements();
+    elements::mark_selection(&over, editor.selection.elements(), &mesh, theme, |vertex| Some((seen(vertex)?, true)));
+    elements::mark_under_pointer(&over, editor.pointer.element(), &mesh, theme, seen);
     if editor.is_of_session(&plane.mesh) {
         for side in editor.tools.seam_hover.sides() {
             over.line_segment(side.map(spot), pane::seam_stroke(theme));

@@ -115,7 +115,7 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
     let cases: [(&[&str], &str); 42] = [
-        (&["--family", "uniform"], "convex"),
+        (&["--family", "uniform"], "Convex boundary"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
         (&["--pin", "99999:0,0"], "99999"),

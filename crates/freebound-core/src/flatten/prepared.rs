@@ -70,7 +70,7 @@ pub fn solve_once(
     }
     check_pins(mesh, pins)?;
     if settings.are_constraints(pins) {
-        return Err(SolveError::TooManyPins { method: method.name(), count: pins.len(), most: GAUGE_PINS });
+        return Err(SolveError::TooManyPins { method: method.labels().title, count: pins.len(), most: GAUGE_PINS });
     }
     let mut solution = own_solution(mesh, settings, control)?;
     complete_gauge(mesh, &mut solution.embedding, pins, settings.size);
@@ -86,7 +86,7 @@ fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> R
         Method::Spectral => Ok(spectral(mesh, control)?.solution),
         Method::Abf => Ok(angle_based(mesh, AngleSystem::Full, control)?.solution),
         Method::AbfPlusPlus => Ok(angle_based(mesh, AngleSystem::Reduced, control)?.solution),
-        other => Err(SolveError::NoLinearSolve { method: other.name() }),
+        other => Err(SolveError::NoLinearSolve { method: other.labels().title }),
     }
 }
 
@@ -101,7 +101,7 @@ impl Prepared {
         settings.family().check_for(&settings.method)?;
         let method = &settings.method;
         if !method.begins_with_pins_held() && !matches!(method, Method::Convex(_) | Method::Stretch(_)) {
-            return Err(SolveError::NoLinearSolve { method: method.name() });
+            return Err(SolveError::NoLinearSolve { method: method.labels().title });
         }
         let pins = if settings.method.uses_pins() { pins } else { &Pins::new() };
         check_pins(mesh, pins)?;

@@ -255,7 +255,7 @@ impl Fault {
             }
             Self::CoincidentVertices(v) => vertices("the position of a vertex of another component", v),
             Self::SeveralComponents { first_faces, sizes } => format!(
-                "{} components, of {} triangles, with first faces {}",
+                "{} components (triangles in each: {}), with first faces {}",
                 sizes.len(),
                 listed(sizes),
                 listed(&first_faces.polygons)
@@ -269,7 +269,7 @@ impl Fault {
                 let sizes: Vec<usize> = loops.iter().map(Vec::len).collect();
                 let starts: Vec<VertexId> = loops.iter().map(|l| l[0]).collect();
                 format!(
-                    "{} boundary loops, of {} edges, at vertices {}",
+                    "{} boundary loops (edges in each: {}), at vertices {}",
                     loops.len(),
                     listed(&sizes),
                     listed(&numbers(&starts))

@@ -59,9 +59,9 @@ pub enum SolveError {
     /// Family of weights that the method cannot use.
     #[error("{method} does not support {family} weights: {remedy}")]
     FamilyNotApplicable {
-        /// Name of the method.
+        /// Title of the method.
         method: &'static str,
-        /// Name of the family.
+        /// Title of the family.
         family: String,
         /// Choice to make instead.
         remedy: &'static str,
@@ -85,14 +85,14 @@ pub enum SolveError {
     /// Equations and factors were requested, but the method does not begin with a linear solve that has any.
     #[error("{method} does not begin with a linear solve for positions: run the whole method")]
     NoLinearSolve {
-        /// Name of the method.
+        /// Title of the method.
         method: &'static str,
     },
 
     /// More pins than the method accepts.
-    #[error("{method} supports at most {most} hard pins, not {count}: choose auto or iterate")]
+    #[error("{method} takes at most {most} hard pins, not {count}: choose Auto or Mean-value iteration")]
     TooManyPins {
-        /// Name of the method.
+        /// Title of the method.
         method: &'static str,
         /// Number of the user's pins.
         count: usize,
@@ -129,7 +129,7 @@ pub enum SolveError {
     NotPlanar,
 
     /// No boundary vertex is left for the virtual boundary to bend.
-    #[error("no weights give a planar embedding with the boundary on a circle: choose auto or schnyder")]
+    #[error("no weights give a planar map with the boundary on a circle: choose Auto or Schnyder's grid")]
     AllBent,
 
     /// No stage of a flattener has a further step.

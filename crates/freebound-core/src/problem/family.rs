@@ -56,10 +56,18 @@ impl Family {
             return Ok(());
         }
         Err(SolveError::FamilyNotApplicable {
-            method: method.name(),
-            family: self.to_string(),
-            remedy: "choose convex or lee, which use a convex boundary",
+            method: method.labels().title,
+            family: self.title().to_lowercase(),
+            remedy: "choose Convex boundary or Lee's virtual boundary",
         })
+    }
+}
+
+impl Family {
+    /// Title, with the number of a power.
+    fn title(self) -> String {
+        let title = self.labels().title;
+        if let Self::Power(p) = self { format!("{title} {p}") } else { title.to_owned() }
     }
 }
 

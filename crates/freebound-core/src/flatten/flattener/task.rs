@@ -109,7 +109,7 @@ impl Task {
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match &self.settings.method {
             method if self.is_constrained() && !method.takes_constraints() => {
-                Err(SolveError::TooManyPins { method: method.name(), count: self.pins.len(), most: GAUGE_PINS })
+                Err(SolveError::TooManyPins { method: method.labels().title, count: self.pins.len(), most: GAUGE_PINS })
             }
             method if method.only_places_pins() => check_pins(mesh, &self.pins),
             Method::Auto if self.is_constrained() => check_distances(mesh, &self.held()),

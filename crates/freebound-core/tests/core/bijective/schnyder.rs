@@ -97,7 +97,7 @@ fn two_pins_are_met_to_the_last_bit_and_three_are_refused() {
     }
     assert_eq!(
         steps(&mesh, Method::Schnyder, pins(3)).err(),
-        Some(SolveError::TooManyPins { method: "schnyder", count: 3, most: 2 })
+        Some(SolveError::TooManyPins { method: "Schnyder's grid", count: 3, most: 2 })
     );
 }
 

@@ -254,7 +254,7 @@ fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
     let pins = hard_pins((0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))));
     let outcome = Flattener::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins)
         .step(&mesh, Control::unattended());
-    assert_eq!(outcome.err(), Some(SolveError::TooManyPins { method: "virtual-boundary", count: 3, most: 2 }));
+    assert_eq!(outcome.err(), Some(SolveError::TooManyPins { method: "Virtual boundary", count: 3, most: 2 }));
 }
 
 #[test]

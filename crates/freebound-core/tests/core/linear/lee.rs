@@ -232,7 +232,7 @@ fn two_pins_say_where_it_lies_and_more_are_refused() {
     assert!(two.iter().all(|(v, pin)| step.candidate.solution.embedding[*v] == pin.target));
     let three = hard_pins(targets);
     let refused = Flattener::new(lee(2, Family::MeanValue), three).step(&mesh, Control::unattended()).err();
-    assert_eq!(refused, Some(SolveError::TooManyPins { method: "lee", count: 3, most: 2 }));
+    assert_eq!(refused, Some(SolveError::TooManyPins { method: "Lee's virtual boundary", count: 3, most: 2 }));
 }
 
 #[test]

@@ -402,7 +402,7 @@ fn a_single_solve_is_the_first_step_of_its_method_or_refused() {
         let settings = Settings { method: method.clone(), ..Settings::default() };
         let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
         if method.is_one_to_one() {
-            assert_eq!(solved, Err(SolveError::NoLinearSolve { method: method.name() }));
+            assert_eq!(solved, Err(SolveError::NoLinearSolve { method: method.labels().title }));
             continue;
         }
         let first = Flattener::new(settings.clone(), Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
@@ -414,5 +414,5 @@ fn a_single_solve_is_the_first_step_of_its_method_or_refused() {
     let three = hard_pins((0..3).map(|k| (mesh.boundary_loop()[3 * k], DVec2::new(k as f64, (k * k) as f64))));
     let settings = Settings::new(Method::Slim, Family::default());
     let refused = solve_once(&mesh, &settings, &three, Control::unattended());
-    assert_eq!(refused, Err(SolveError::TooManyPins { method: "slim", count: 3, most: 2 }));
+    assert_eq!(refused, Err(SolveError::TooManyPins { method: "SLIM", count: 3, most: 2 }));
 }

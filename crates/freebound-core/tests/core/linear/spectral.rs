@@ -218,7 +218,7 @@ fn two_pins_only_place_it_and_three_are_refused() {
     }
     assert_eq!(
         steps(&mesh, Method::Spectral, pins(3)).err(),
-        Some(SolveError::TooManyPins { method: "spectral", count: 3, most: 2 })
+        Some(SolveError::TooManyPins { method: "Spectral conformal", count: 3, most: 2 })
     );
     let beyond = hard_pins([(VertexId::new(999), DVec2::ZERO)]);
     assert_eq!(steps(&mesh, Method::Spectral, beyond).err().map(|error| error.name()), Some("no-such-vertex"));

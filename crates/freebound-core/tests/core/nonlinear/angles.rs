@@ -260,7 +260,7 @@ fn two_pins_only_place_it_and_three_are_refused() {
         }
         assert_eq!(
             steps(&mesh, method.clone(), pins(3)).err(),
-            Some(SolveError::TooManyPins { method: method.name(), count: 3, most: 2 })
+            Some(SolveError::TooManyPins { method: method.labels().title, count: 3, most: 2 })
         );
     }
 }

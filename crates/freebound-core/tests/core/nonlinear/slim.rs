@@ -286,7 +286,7 @@ fn two_pins_say_where_it_lies_and_more_are_refused() {
         assert!(two.iter().all(|(v, pin)| step.candidate.solution.embedding[*v] == pin.target), "step {}", step.index);
     }
     let refused = Flattener::new(slim(), hard_pins(targets)).step(&mesh, Control::unattended()).err();
-    assert_eq!(refused, Some(SolveError::TooManyPins { method: "slim", count: 3, most: 2 }));
+    assert_eq!(refused, Some(SolveError::TooManyPins { method: "SLIM", count: 3, most: 2 }));
 }
 
 corpus_test! {
