@@ -11,34 +11,17 @@ use freebound_core::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
 /// Edge loops and rings of a disk. Faces that fill holes do not count.
 #[derive(Clone, Copy, Debug)]
-pub struct EdgeLoops<'a>(pub &'a DiskMesh);
+pub(super) struct EdgeLoops<'a>(pub(super) &'a DiskMesh);
 
 impl EdgeLoops<'_> {
-    /// True if an edge lies between two of the vertices.
-    pub fn has_edge(self, vertices: &BTreeSet<VertexId>) -> bool {
-        self.sides_between(vertices).next().is_some()
-    }
-
-    /// Edges between these vertices.
-    pub fn edges_between(self, vertices: &BTreeSet<VertexId>) -> BTreeSet<MeshEdge> {
-        self.sides_between(vertices).map(|side| self.ends(side)).collect()
-    }
-
     /// Edges of the loops through these edges.
-    pub fn loops(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
+    pub(super) fn loops(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
         self.reached(edges, |side| [side, self.0.twin(side)].map(|side| self.straight_on(side)))
     }
 
     /// Edges of the rings of these edges.
-    pub fn rings(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
+    pub(super) fn rings(self, edges: &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge> {
         self.reached(edges, |side| [side, self.0.twin(side)].map(|side| self.opposite(side)))
-    }
-
-    /// Sides of the edges between these vertices, both of each.
-    fn sides_between(self, vertices: &BTreeSet<VertexId>) -> impl Iterator<Item = HalfedgeId> {
-        let known = vertices.iter().copied().filter(move |vertex| vertex.index() < self.0.vertex_count());
-        let among = move |side: &HalfedgeId| vertices.contains(&self.0.head(*side));
-        known.flat_map(move |vertex| self.edges_at(vertex).collect::<Vec<_>>()).filter(among)
     }
 
     /// Side of an edge; `None` if the disk has no such edge.
@@ -143,16 +126,14 @@ mod tests {
         vertices.into_iter().collect()
     }
 
-    /// Ends of the loops through the edges between these vertices.
-    fn loops(mesh: &DiskMesh, vertices: impl IntoIterator<Item = VertexId>) -> BTreeSet<VertexId> {
-        let loops = EdgeLoops(mesh);
-        loops.loops(&loops.edges_between(&set(vertices))).into_iter().flatten().collect()
+    /// Ends of the loop through the edge of two vertices.
+    fn loops(mesh: &DiskMesh, ends: MeshEdge) -> BTreeSet<VertexId> {
+        EdgeLoops(mesh).loops(&[ends].into()).into_iter().flatten().collect()
     }
 
-    /// Edges of the rings of the edges between these vertices.
-    fn rings(mesh: &DiskMesh, vertices: impl IntoIterator<Item = VertexId>) -> BTreeSet<MeshEdge> {
-        let loops = EdgeLoops(mesh);
-        loops.rings(&loops.edges_between(&set(vertices)))
+    /// Edges of the ring of the edge of two vertices.
+    fn rings(mesh: &DiskMesh, ends: MeshEdge) -> BTreeSet<MeshEdge> {
+        EdgeLoops(mesh).rings(&[ends].into())
     }
 
     #[test]
@@ -161,9 +142,8 @@ mod tests {
         assert_eq!(loops(&mesh, [v(1, 2), v(2, 2)]), set((0..=SIDE).map(|x| v(x, 2))));
         assert_eq!(loops(&mesh, [v(1, 0), v(1, 1)]), set((0..=SIDE).map(|y| v(1, y))));
         assert_eq!(loops(&mesh, [v(1, 2), v(3, 2)]), set([]), "no edge lies between them");
-        assert!(EdgeLoops(&mesh).has_edge(&set([v(0, 0), v(1, 0)])));
         for diagonal in [[v(0, 0), v(1, 1)], [v(1, 0), v(0, 1)]] {
-            assert!(!EdgeLoops(&mesh).has_edge(&set(diagonal)));
+            assert!(loops(&mesh, diagonal).is_empty(), "diagonals are no edges");
         }
     }
 

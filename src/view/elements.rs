@@ -161,12 +161,23 @@ impl<'a> ElementMesh<'a> {
 
     /// Calls `see` for each face with its triangles and its corners.
     fn visit(&self, mut see: impl FnMut(Range<usize>, &[VertexId])) {
+        self.any_face(|triangles, corners| {
+            see(triangles, corners);
+            false
+        });
+    }
+
+    /// True if a face counts, by its triangles and its corners. Stops at the first one.
+    fn any_face(&self, mut counts: impl FnMut(Range<usize>, &[VertexId]) -> bool) -> bool {
         let (mut corners, mut triangle) = (Vec::new(), 0);
         while triangle < self.sets.triangles.len() {
             let triangles = self.face(triangle, &mut corners);
             triangle = triangles.end;
-            see(triangles, &corners);
+            if counts(triangles, &corners) {
+                return true;
+            }
         }
+        false
     }
 
     /// Edges that count.
@@ -379,11 +390,22 @@ impl ElementMesh<'_> {
         twice
     }
 
-    /// True if loops start from the set.
+    /// True if loops start from the set. Stops at the first edge, because menus ask in every frame.
     pub fn has_loops(&self, elements: &ElementSet) -> bool {
         match elements.kind {
             ElementKind::Edges => !elements.edges.is_empty(),
-            _ => !self.start_of_loops(elements).is_empty(),
+            ElementKind::Vertices if elements.vertices.len() < 2 => false,
+            ElementKind::Vertices => {
+                let is_in = self.sets.marked(&elements.vertices);
+                self.any_face(|_, corners| sides(corners).any(|ends| ends.iter().all(|end| is_in[end.index()])))
+            }
+            ElementKind::Faces => {
+                let mut met = BTreeSet::new();
+                self.any_face(|triangles, corners| {
+                    let is_in = elements.faces.contains(&FaceId::from_index(triangles.start));
+                    is_in && sides(corners).any(|edge| !met.insert(edge))
+                })
+            }
         }
     }
 

@@ -49,7 +49,7 @@ pub use beside::{CellFrame, CellFrames};
 pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use comparison::{CellShading, ComparisonPicture};
 pub use draw::{DrawnFaces, EdgeList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
-pub use edge_loops::EdgeLoops;
+use edge_loops::EdgeLoops;
 pub use elements::{ElementKind, ElementMesh, ElementSet, MeshEdge, MeshElement, MeshPart, distance_to_segment};
 pub use kdtree::PlanePicker;
 pub use morph::{MorphPicture, MorphPlace, MorphSight};

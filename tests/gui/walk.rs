@@ -124,8 +124,8 @@ impl Walk {
             .collect();
         let shortcut = self.one_of(&bound);
         let other = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::SHIFT]);
-        let pressed = egui::KeyboardShortcut::new(shortcut.modifiers | other, shortcut.logical_key);
-        let other = if leaves_the_sheet(pressed) { Modifiers::NONE } else { other };
+        let changed = egui::KeyboardShortcut::new(shortcut.modifiers | other, shortcut.logical_key);
+        let other = if leaves_the_sheet(changed) { Modifiers::NONE } else { other };
         let times = self.one_of(&[1, 1, 1, 2, 4]);
         self.say(format!("{times} × {:?} with {:?}", shortcut.logical_key, shortcut.modifiers | other));
         let presses = key(shortcut.logical_key, shortcut.modifiers | other);

@@ -4,7 +4,7 @@ use super::Editor;
 use crate::session::{ChartState, LockState};
 use crate::ui::GOOD_ENERGY;
 use crate::ui::state::SelectBy;
-use crate::view::{EdgeLoops, ElementKind, ElementSet};
+use crate::view::{ElementKind, ElementMesh, ElementSet};
 use freebound_core::mesh::VertexId;
 use freebound_core::verify::FaceDistortion;
 
@@ -28,7 +28,8 @@ impl Editor {
             SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges | SelectBy::Connected => has_selection,
             SelectBy::Loops | SelectBy::Rings => {
                 let is_for = kind != ElementKind::Faces || by == SelectBy::Loops;
-                has_selection && is_for && self.has_loops()
+                let has_loops = |mesh: &ElementMesh<'_>| mesh.has_loops(self.selected_elements());
+                has_selection && is_for && self.on_shown_mesh(has_loops).unwrap_or_default()
             }
             SelectBy::Pins => kind == ElementKind::Vertices && !self.pinned_vertices().is_empty(),
             SelectBy::Distorted => self.distortion_of_faces().is_some(),
@@ -48,16 +49,6 @@ impl Editor {
             let charts: Vec<usize> =
                 (0..self.chart_count()).filter(|&chart| self.is_chart_selected_by(chart, by)).collect();
             self.plane.page.select(charts);
-        }
-    }
-
-    fn has_loops(&self) -> bool {
-        let elements = self.selected_elements();
-        // Menus ask in every frame, so the vertices of a single disk are searched without a table of its edges.
-        let disk = self.mesh_scene().and_then(|scene| scene.disk()).filter(|_| !self.shows_page());
-        match (elements.kind(), disk) {
-            (ElementKind::Vertices, Some(disk)) => EdgeLoops(disk).has_edge(elements.vertices()),
-            _ => self.on_shown_mesh(|mesh| mesh.has_loops(elements)).unwrap_or_default(),
         }
     }
 

@@ -186,7 +186,9 @@ pub(super) fn mark_selection(
     for corners in elements.faces().iter().take(MARKS_SHOWN).filter_map(|&face| mesh.triangle(face)) {
         if let [Some((a, true)), Some((b, true)), Some((c, true))] = corners.map(&spot) {
             let first = u32::try_from(tint.vertices.len()).unwrap_or_default();
-            [a, b, c].into_iter().for_each(|at| tint.colored_vertex(at, theme.selection.gamma_multiply(TINT)));
+            for at in [a, b, c] {
+                tint.colored_vertex(at, theme.selection.gamma_multiply(TINT));
+            }
             tint.add_triangle(first, first + 1, first + 2);
         }
     }
