@@ -465,13 +465,15 @@ impl ElementMesh<'_> {
         }
     }
 
-    /// Set of elements of a kind. Those of another kind are left out.
+    /// Set of elements of a kind. Those of another kind, and those that the mesh does not have, are left out.
     pub fn set_of(&self, kind: ElementKind, elements: impl IntoIterator<Item = MeshElement>) -> ElementSet {
         let (mut vertices, mut edges, mut faces) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+        let is_there = |vertex: VertexId| vertex.index() < self.sets.positions.len();
         for element in elements {
             match element {
-                MeshElement::Vertex(vertex) => drop(vertices.insert(vertex)),
-                MeshElement::Edge(edge) => drop(edges.insert(ascending(edge))),
+                MeshElement::Vertex(vertex) if is_there(vertex) => drop(vertices.insert(vertex)),
+                MeshElement::Edge(ends) if ends.into_iter().all(is_there) => drop(edges.insert(ascending(ends))),
+                MeshElement::Vertex(_) | MeshElement::Edge(_) => {}
                 MeshElement::Face(face) => drop(faces.insert(face.index())),
             }
         }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
+use freebound::session::Action;
 use freebound::ui::{PageRequest, Request, SelectBy, SelectionKind};
 use freebound::view::{ElementKind, ElementSet, MeshElement};
 use freebound_core::mesh::VertexId;
@@ -246,4 +247,23 @@ fn a_cut_along_all_edges_gives_each_face_a_chart_of_its_own() {
     window.press(CTRL, Key::Z);
     window.settle();
     assert!(window.editor().session.charts().is_none() && window.is_proved());
+}
+
+#[test]
+fn elements_of_the_page_stay_selected_while_a_chart_is_solved_again() {
+    let mut window = with_sheets();
+    window.press(CTRL, Key::Num3);
+    let at = middle(&window, 0, &first_triangle(&window, 0));
+    window.click_at(at, Modifiers::NONE);
+    let before = of_page(&window);
+    assert!(!before.is_empty());
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0), VertexId::new(5)]));
+    until_laid_out(&mut window);
+    assert_eq!(of_page(&window), before);
+    // An element that a mesh does not have is not selected.
+    for beyond in [MeshElement::Vertex(VertexId::new(9999)), MeshElement::Edge([VertexId::new(1), VertexId::new(9999)])]
+    {
+        window.editor_mut().handle(Request::SelectElement { element: beyond, adds: false });
+        assert!(of_page(&window).is_empty(), "{beyond:?}");
+    }
 }

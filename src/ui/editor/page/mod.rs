@@ -62,23 +62,26 @@ struct PageSelection {
     charts: Outlined,
     /// Chart under the pointer, in either pane.
     hovered: Outlined,
-    /// Vertices, edges or faces, by their numbers on the scene.
+    /// Vertices, edges or faces, by their numbers on a scene.
     elements: DrawnElements,
+    /// Last scene. The page has none for a while if a chart is solved again.
+    scene: Option<Arc<PageScene>>,
 }
 
 impl PageSelection {
     /// Keeps the charts that a scene has, and the elements if the mesh is cut as before. Elements of steps with other
     /// new vertices become their vertices.
-    fn keep_on(&mut self, scene: &PageScene, before: Option<&PageScene>) {
+    fn keep_on(&mut self, scene: &Arc<PageScene>) {
+        let before = self.scene.replace(Arc::clone(scene));
         let count = scene.spans.len();
         for outlined in [&mut self.charts, &mut self.hovered] {
             outlined.charts.retain(|&chart| chart < count);
         }
         let before = before.filter(|before| before.is_cut_like(scene));
-        if before.is_some_and(|before| before.has_numbers_of(scene)) {
+        if before.as_ref().is_some_and(|before| before.has_numbers_of(scene)) {
             return;
         }
-        let place = |vertex: &VertexId| before?.on_chart(*vertex);
+        let place = |vertex: &VertexId| before.as_ref()?.on_chart(*vertex);
         let places = self.elements.get().vertices().iter().filter_map(place);
         let kept: Vec<VertexId> = places.filter_map(|(chart, vertex)| scene.of_chart(chart, vertex)).collect();
         self.elements.set(ElementSet::of_vertices(kept));
@@ -288,7 +291,7 @@ impl PageView {
             self.job.make(key, move |_| PageScene::new(key, &page, space, before.as_deref()));
         }
         self.refresh_moved(session);
-        let PageSelection { charts, hovered, elements } = &mut self.selection;
+        let PageSelection { charts, hovered, elements, .. } = &mut self.selection;
         for outlined in [charts, hovered] {
             outlined.refresh(self.scene.as_deref());
         }
@@ -298,9 +301,10 @@ impl PageView {
     }
 
     fn take(&mut self, scene: PageScene) {
-        self.selection.keep_on(&scene, self.scene.as_deref());
+        let scene = Arc::new(scene);
+        self.selection.keep_on(&scene);
         let bounds = scene.page_box().union(scene.plane.bounds);
-        self.scene = Some(Arc::new(scene));
+        self.scene = Some(scene);
         self.moved = None;
         if self.pane.camera().is_none() {
             self.set_framed(PlaneCamera::framing(bounds, self.pane.size()));
