@@ -202,7 +202,7 @@ mod tests {
         let read = |changes: &[[&str; 2]]| {
             KeyMap::read(&changes.iter().map(|[usual, new]| ((*usual).to_owned(), (*new).to_owned())).collect())
         };
-        assert_eq!(read(&[["Ctrl+O", "Ctrl+L"]]).written().len(), 1);
+        assert_eq!(read(&[["Ctrl+O", "Ctrl+J"]]).written().len(), 1);
         for nonsense in [["Ctrl+O", "Ctrl+S"], ["Ctrl+O", "Hyper+L"], ["Ctrl+O", ""], ["No key", "F5"]] {
             assert_eq!(read(&[nonsense]), KeyMap::default(), "{nonsense:?}");
         }

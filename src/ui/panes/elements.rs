@@ -30,6 +30,13 @@ const TINT: f32 = 0.25;
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
 
+/// Most tests of points of a stroke against vertices of the map. On large meshes, points of the stroke are left out,
+/// because the width of the stroke covers their elements.
+const MOST_TESTS: usize = 30_000_000;
+
+/// Least number of points of a stroke that are tested.
+const LEAST_POINTS: usize = 60;
+
 /// Surface whose elements are picked in the mesh pane.
 pub(super) struct Surface<'a> {
     pub(super) mesh: ElementMesh<'a>,
@@ -110,7 +117,9 @@ impl<'a> Plane<'a> {
     /// Elements inside a region of the pane, and those under the line of a stroke.
     pub(super) fn inside(&self, kind: ElementKind, view: Viewport<PlaneCamera>, region: &Region) -> ElementSet {
         let inside = self.mesh.inside(kind, |vertex| region.contains(view.spot(self.places[vertex.index()])));
-        let crossed = region.line().into_iter().filter_map(|at| self.element_at(kind, view, at));
+        let line = region.line();
+        let step = line.len().div_ceil((MOST_TESTS / self.places.len().max(1)).max(LEAST_POINTS)).max(1);
+        let crossed = line.into_iter().step_by(step).filter_map(|at| self.element_at(kind, view, at));
         self.mesh.union(&inside, &self.mesh.set_of(kind, crossed))
     }
 }
