@@ -172,6 +172,11 @@ fn write_until_the_clean_up(folder: &Path) -> ! {
                 }
             });
         }
+        // On a busy machine, a thread may begin late.
+        let is_written = |number: u32| folder.join(format!("{number}.txt")).exists();
+        while !(0..4).all(is_written) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
         std::thread::sleep(Duration::from_millis(50));
         discard_unfinished();
         std::thread::sleep(Duration::from_millis(50));
