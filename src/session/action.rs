@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::StopConditions;
-use super::page::ChartMove;
+use super::page::{ChartMove, ChartVertices};
 use crate::examples::Example;
 use freebound_core::bijective::Brush;
 use freebound_core::geom::{PackingOptions, VAxis};
@@ -102,6 +102,8 @@ pub enum Action {
     ClearRecent,
     /// Pins vertices at their current positions.
     Fix(Vec<VertexId>),
+    /// Pins vertices of charts where they lie on the page. All charts stay where they lie.
+    FixOnPage(Vec<ChartVertices>),
     /// Opens a picture to be mapped onto the mesh.
     OpenPicture(PathBuf),
     /// Removes the picture.
@@ -250,6 +252,8 @@ pub enum Action {
     MergePins([VertexId; 2]),
     /// Unpins vertices.
     Unpin(Vec<VertexId>),
+    /// Unpins vertices of charts of the page. All other charts stay where they lie.
+    UnpinOnPage(Vec<ChartVertices>),
     /// Unpins all vertices.
     UnpinAll,
     /// Sets method and weights.

@@ -310,7 +310,7 @@ impl Session {
 }
 
 /// Edits that free a pin and take its name away.
-fn unpinned(vertex: VertexId) -> [Command; 2] {
+pub(super) fn unpinned(vertex: VertexId) -> [Command; 2] {
     [Command::SetPin { vertex, target: None }, Command::SetNote { vertex, note: PinNote::default() }]
 }
 

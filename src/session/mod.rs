@@ -11,6 +11,7 @@
 //! | `queries`            | queries that the parts answer                                          |
 //! | `edits`              | edits of the document                                                  |
 //! | `page_actions`       | moves, packing, stacks and locks of charts on the page                 |
+//! | `page_pins`          | pins of charts on the page                                             |
 //! | `carried_pins`       | constraints of a project for another mesh                              |
 //! | `carrying`           | constraints of a project on the open mesh                              |
 //! | `chart_actions`      | shown chart, charts in the background, and their layout                |
@@ -119,6 +120,7 @@ mod open_project;
 mod opened;
 mod page;
 mod page_actions;
+mod page_pins;
 mod page_stroke;
 mod past;
 mod preferences;
@@ -161,7 +163,9 @@ use messages::{Messages, Written};
 
 pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
-pub use page::{ChartMove, ChartPage, JudgedFrame, JudgedFrames, JudgedMove, MoveState, PageChart, movement_about};
+pub use page::{
+    ChartMove, ChartPage, ChartVertices, JudgedFrame, JudgedFrames, JudgedMove, MoveState, PageChart, movement_about,
+};
 pub use page_stroke::{ChartPlacement, PageStroke};
 pub use preferences::{KeptChecker, KeptFolders, Preferences};
 pub use recent::RecentFiles;

@@ -50,6 +50,9 @@ pub struct PageChart {
 /// Chart and its movement in the page's plane.
 pub type ChartMove = (usize, DAffine2);
 
+/// Number of a chart, and vertices by their numbers on that chart.
+pub type ChartVertices = (usize, Vec<VertexId>);
+
 /// Movement with a fixed point: `by` moves directions from there.
 pub fn movement_about(fixed: DVec2, by: DAffine2) -> DAffine2 {
     DAffine2::from_translation(fixed) * by * DAffine2::from_translation(-fixed)

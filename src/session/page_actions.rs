@@ -10,6 +10,7 @@ use super::page::{ChartMove, ChartPage, JudgedMove, MoveState, PageChart};
 use super::{Command, LockState, Message, MessagePlace, Session};
 use freebound_core::geom::{PackingOptions, Stacking};
 use freebound_core::mesh::{Charts, FaceId};
+use freebound_core::pipeline::Targets;
 use freebound_core::problem::Embedding;
 use freebound_core::verify::MoveVerdict;
 use freebound_io::PictureFile;
@@ -53,9 +54,8 @@ impl Session {
     /// True if charts stay where they lie until they are packed.
     pub fn has_placed_charts(&self) -> bool {
         let places = |charts: &Arc<Charts>| {
-            let layout = &self.document.layout;
             (0..charts.count())
-                .any(|chart| layout.lock_of(charts, chart).is_none() && layout.place_of(charts, chart).is_some())
+                .any(|chart| self.is_movable(chart) && self.document.layout.place_of(charts, chart).is_some())
         };
         self.charts().is_some_and(places)
     }
@@ -65,7 +65,7 @@ impl Session {
         let Some(of) = self.model().and_then(|model| model.prepared.chart.as_ref()) else { return false };
         chart < of.charts.count()
             && self.document.layout.lock_of(&of.charts, chart).is_none()
-            && self.document.edits_of(chart, of).targets.is_empty()
+            && self.targets_of_chart(chart).is_none_or(Targets::is_empty)
     }
 
     /// Charts of the newest layout that overlap others or are not planar.

@@ -24,6 +24,22 @@ impl EdgeLoops<'_> {
         self.reached(edges, |side| [side, self.0.twin(side)].map(|side| self.opposite(side)))
     }
 
+    /// True if an edge leads from a vertex to one that counts.
+    pub(super) fn leads_from(self, vertex: VertexId, counts: impl Fn(VertexId) -> bool) -> bool {
+        vertex.index() < self.0.vertex_count() && self.edges_at(vertex).any(|side| counts(self.0.head(side)))
+    }
+
+    /// True if an edge lies between a face and another one that counts.
+    pub(super) fn borders(self, face: FaceId, counts: impl Fn(FaceId) -> bool) -> bool {
+        if face.index() >= self.0.mesh().real_face_count() {
+            return false;
+        }
+        let [a, b, c] = self.0.face(face);
+        let sides = [[a, b], [b, c], [c, a]].into_iter().filter_map(|ends| self.side_of(ends));
+        let faces = sides.flat_map(|side| [side, self.0.twin(side)]).filter_map(|side| self.face(side));
+        faces.into_iter().any(|other| other != face && counts(other))
+    }
+
     /// Side of an edge; `None` if the disk has no such edge.
     fn side_of(self, [tail, head]: MeshEdge) -> Option<HalfedgeId> {
         if tail.index() >= self.0.vertex_count() {

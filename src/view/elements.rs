@@ -215,6 +215,21 @@ impl<'a> ElementMesh<'a> {
         }
     }
 
+    /// Vertices that count.
+    pub fn vertices_where(&self, is_wanted: impl Fn(VertexId) -> bool) -> ElementSet {
+        ElementSet::of_vertices(self.sets.all().into_iter().filter(|&vertex| is_wanted(vertex)))
+    }
+
+    /// Edges that count.
+    pub fn edges_where(&self, is_wanted: impl Fn(MeshEdge) -> bool) -> ElementSet {
+        ElementSet::of_edges(self.edges_with(is_wanted))
+    }
+
+    /// Faces with a triangle that counts.
+    pub fn faces_where(&self, is_wanted: impl Fn(FaceId) -> bool) -> ElementSet {
+        self.within_faces(ElementKind::Faces, |triangle| is_wanted(FaceId::from_index(triangle)))
+    }
+
     /// Elements of a kind between vertices.
     fn between(&self, kind: ElementKind, is_in: &[bool]) -> ElementSet {
         let holds = |vertex: &VertexId| is_in[vertex.index()];
@@ -325,7 +340,10 @@ impl ElementMesh<'_> {
     fn start(&self, elements: &ElementSet) -> Vec<usize> {
         match elements.kind {
             ElementKind::Vertices => self.sets.faces_at(&elements.vertices),
-            ElementKind::Faces => elements.faces.iter().map(|face| face.index()).collect(),
+            ElementKind::Faces => {
+                let is_there = |&face: &usize| face < self.sets.triangles.len();
+                elements.faces.iter().map(|face| face.index()).filter(is_there).collect()
+            }
             ElementKind::Edges => {
                 let mut start = Vec::new();
                 self.visit(|triangles, corners| {
@@ -351,17 +369,16 @@ impl ElementMesh<'_> {
 
     /// Elements of a kind at the boundary: ends of edges with a single face, these edges, or their faces.
     pub fn boundary(&self, kind: ElementKind) -> ElementSet {
-        let table = self.sets.edges();
-        let single = || table.edges().filter(|sides| sides.len() == 1).map(|sides| sides[0]);
-        match kind {
-            ElementKind::Vertices => ElementSet::of_vertices(self.sets.boundary()),
-            ElementKind::Edges => ElementSet::of_edges(single().map(|side| ascending(self.sets.ends(side))).collect()),
-            ElementKind::Faces => {
-                let mut is_there = vec![false; self.sets.triangles.len()];
-                single().for_each(|side| is_there[side as usize / 3] = true);
-                self.within_faces(kind, |triangle| is_there[triangle])
+        let single = self.sets.single_sides();
+        if kind == ElementKind::Faces {
+            let mut is_there = vec![false; self.sets.triangles.len()];
+            for side in single {
+                is_there[side as usize / 3] = true;
             }
+            return self.within_faces(kind, |triangle| is_there[triangle]);
         }
+        let edges = ElementSet::of_edges(single.into_iter().map(|side| ascending(self.sets.ends(side))).collect());
+        self.converted(&edges, kind)
     }
 
     /// Elements of a kind in the triangles with the greatest values that together have this share of the area.
@@ -390,58 +407,63 @@ impl ElementMesh<'_> {
         twice
     }
 
-    /// True if loops start from the set. Stops at the first edge, because menus ask in every frame.
+    /// True if loops start from the set. Stops at the first edge and visits the set alone, because menus ask in every
+    /// frame.
     pub fn has_loops(&self, elements: &ElementSet) -> bool {
         match elements.kind {
             ElementKind::Edges => !elements.edges.is_empty(),
-            ElementKind::Vertices if elements.vertices.len() < 2 => false,
-            ElementKind::Vertices => {
-                let is_in = self.sets.marked(&elements.vertices);
-                self.any_face(|_, corners| sides(corners).any(|ends| ends.iter().all(|end| is_in[end.index()])))
-            }
-            ElementKind::Faces => {
-                let mut met = BTreeSet::new();
-                self.any_face(|triangles, corners| {
-                    let is_in = elements.faces.contains(&FaceId::from_index(triangles.start));
-                    is_in && sides(corners).any(|edge| !met.insert(edge))
-                })
-            }
+            ElementKind::Vertices => elements.vertices.iter().any(|&vertex| self.has_edge_within(vertex, elements)),
+            ElementKind::Faces => elements.faces.iter().any(|&triangle| self.has_neighbour_within(triangle, elements)),
         }
+    }
+
+    /// True if an edge leads from a vertex to another one of a set.
+    fn has_edge_within(&self, vertex: VertexId, elements: &ElementSet) -> bool {
+        let place = self.parts.partition_point(|part| part.first_vertex <= vertex.index()).checked_sub(1);
+        place.map(|place| &self.parts[place]).is_some_and(|part| {
+            let is_in =
+                |own: VertexId| elements.vertices.contains(&VertexId::from_index(part.first_vertex + own.index()));
+            EdgeLoops(part.disk).leads_from(VertexId::from_index(vertex.index() - part.first_vertex), is_in)
+        })
+    }
+
+    /// True if an edge lies between the face of a triangle and another face of a set.
+    fn has_neighbour_within(&self, triangle: FaceId, elements: &ElementSet) -> bool {
+        let place = self.parts.partition_point(|part| part.first_face <= triangle.index()).checked_sub(1);
+        place.map(|place| &self.parts[place]).is_some_and(|part| {
+            let is_in = |own: FaceId| elements.faces.contains(&FaceId::from_index(part.first_face + own.index()));
+            EdgeLoops(part.disk).borders(FaceId::from_index(triangle.index() - part.first_face), is_in)
+        })
     }
 
     /// Edge loops through the edges of a set, or the faces of the rings between its faces.
     pub fn loops(&self, elements: &ElementSet) -> ElementSet {
         match elements.kind {
             ElementKind::Faces => self.rings(elements),
-            kind => self.of_loops(
-                kind,
-                &self.in_parts(&self.start_of_loops(elements), |disk, edges| EdgeLoops(disk).loops(edges)),
-            ),
+            kind => self.of_loops(kind, self.in_parts(elements, |disk, edges| EdgeLoops(disk).loops(edges))),
         }
     }
 
     /// Edge rings of the edges of a set, or the faces of the rings.
     pub fn rings(&self, elements: &ElementSet) -> ElementSet {
-        self.of_loops(
-            elements.kind,
-            &self.in_parts(&self.start_of_loops(elements), |disk, edges| EdgeLoops(disk).rings(edges)),
-        )
+        self.of_loops(elements.kind, self.in_parts(elements, |disk, edges| EdgeLoops(disk).rings(edges)))
     }
 
-    fn of_loops(&self, kind: ElementKind, edges: &BTreeSet<MeshEdge>) -> ElementSet {
+    fn of_loops(&self, kind: ElementKind, edges: BTreeSet<MeshEdge>) -> ElementSet {
         match kind {
-            ElementKind::Vertices => ElementSet::of_edges(edges.clone()).into_vertices(),
-            ElementKind::Edges => ElementSet::of_edges(edges.clone()),
+            ElementKind::Vertices => ElementSet::of_edges(edges).into_vertices(),
+            ElementKind::Edges => ElementSet::of_edges(edges),
             ElementKind::Faces => self.faces_with(|_, corners| sides(corners).any(|edge| edges.contains(&edge))),
         }
     }
 
-    /// Edges that follow from others within each disk.
+    /// Edges that follow from those of a set within each disk.
     fn in_parts(
         &self,
-        edges: &BTreeSet<MeshEdge>,
+        elements: &ElementSet,
         follow: impl Fn(&DiskMesh, &BTreeSet<MeshEdge>) -> BTreeSet<MeshEdge>,
     ) -> BTreeSet<MeshEdge> {
+        let edges = self.start_of_loops(elements);
         let of_part = |part: &MeshPart<'_>| {
             let range = part.first_vertex..part.first_vertex + part.disk.vertex_count();
             let low = [VertexId::from_index(range.start), VertexId::new(0)];
@@ -725,6 +747,45 @@ mod tests {
         assert_eq!(mesh.all(ElementKind::Faces).faces().len(), 2 * faces);
         let face = mesh.single(MeshElement::Face(FaceId::from_index(faces + 3)));
         assert_eq!(face.faces().iter().map(|face| face.index()).collect::<Vec<_>>(), [faces + 2, faces + 3]);
+    }
+
+    #[test]
+    fn faces_beyond_the_mesh_reach_no_others() {
+        let disk = square();
+        let mesh = of(&disk);
+        let all = mesh.all(ElementKind::Faces);
+        let smaller = grid(2, 2);
+        let other = triangles(&smaller);
+        assert_eq!(other.connected(&all).faces().len(), 8, "those that both meshes have, and their chart");
+        let beyond = mesh.faces_where(|face| face.index() >= 8);
+        assert!(other.connected(&beyond).is_empty());
+    }
+
+    #[test]
+    fn loops_start_from_edges_and_from_faces_beside_each_other() {
+        let disk = square();
+        let mesh = of(&disk);
+        let has = |set: ElementSet| mesh.has_loops(&set);
+        assert!(has(ElementSet::of_vertices([v(1, 1), v(2, 1)])));
+        assert!(!has(ElementSet::of_vertices([v(1, 1), v(3, 3)])) && !has(ElementSet::of_vertices([v(1, 1)])));
+        assert!(!has(ElementSet::of_vertices([v(1, 1), v(2, 2)])) && !has(ElementSet::of_vertices([v(2, 1), v(1, 2)])));
+        assert!(!has(face(&mesh, 1, 1)), "its two triangles are one face");
+        assert!(has(mesh.union(&face(&mesh, 1, 1), &face(&mesh, 2, 1))));
+        assert!(!has(mesh.union(&face(&mesh, 1, 1), &face(&mesh, 3, 1))));
+        assert!(!has(mesh.union(&face(&mesh, 1, 1), &face(&mesh, 2, 2))), "a common corner is no edge");
+    }
+
+    #[test]
+    fn the_boundary_of_a_sheet_is_its_rim() {
+        let sheet = grid(4, 3);
+        let mesh = triangles(&sheet);
+        let on_rim = |v: &VertexId| {
+            let p = sheet.positions[v.index()];
+            !((0.5..3.5).contains(&p.x) && (0.5..2.5).contains(&p.y))
+        };
+        let all = mesh.all(ElementKind::Vertices);
+        let boundary = mesh.boundary(ElementKind::Vertices);
+        assert_eq!(*boundary.vertices(), all.vertices().iter().copied().filter(on_rim).collect());
     }
 
     #[test]

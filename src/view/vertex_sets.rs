@@ -1,4 +1,4 @@
-//! Sets of vertices that follow from others: grown, shrunk, at the boundary. Triangles that are reached, or distorted.
+//! Sets of vertices that follow from others: grown, shrunk, inverted. Triangles that are reached, or distorted.
 
 use std::collections::BTreeSet;
 
@@ -40,11 +40,9 @@ impl VertexSets<'_> {
         &self.all() - vertices
     }
 
-    /// Ends of the edges with a single triangle.
-    pub fn boundary(self) -> BTreeSet<VertexId> {
-        let table = self.edges();
-        let single = table.edges().filter(|sides| sides.len() == 1);
-        single.flat_map(|sides| self.ends(sides[0])).collect()
+    /// Sides of the edges with a single triangle.
+    pub(super) fn single_sides(self) -> Vec<u32> {
+        self.edges().edges().filter(|sides| sides.len() == 1).map(|sides| sides[0]).collect()
     }
 
     /// Triangles between the vertices; if there are none, those at the vertices.
@@ -118,8 +116,7 @@ impl VertexSets<'_> {
         is_in
     }
 
-    /// Sides of all edges.
-    pub(super) fn edges(self) -> EdgeTable {
+    fn edges(self) -> EdgeTable {
         EdgeTable::new(self.positions.len(), self.triangles)
     }
 
@@ -174,15 +171,5 @@ mod tests {
         let some = set([0, 3, 7, 19]);
         assert_eq!(sets(&mesh).inverted(&sets(&mesh).inverted(&some)), some);
         assert_eq!(sets(&mesh).inverted(&set([])), sets(&mesh).all());
-    }
-
-    #[test]
-    fn the_boundary_of_a_sheet_is_its_rim() {
-        let mesh = grid(4, 3);
-        let on_rim = |v: &VertexId| {
-            let p = mesh.positions[v.index()];
-            !((0.5..3.5).contains(&p.x) && (0.5..2.5).contains(&p.y))
-        };
-        assert_eq!(sets(&mesh).boundary(), sets(&mesh).all().into_iter().filter(on_rim).collect());
     }
 }

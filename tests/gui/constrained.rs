@@ -24,7 +24,8 @@ fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(8, 0.4))
 }
 
-fn place(window: &mut Window, pins: &[(u32, [f64; 2])]) {
+/// Pins vertices at targets.
+pub(crate) fn place(window: &mut Window, pins: &[(u32, [f64; 2])]) {
     for &(vertex, target) in pins {
         let pin = Target::hard(DVec2::from(target));
         window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
@@ -46,7 +47,7 @@ const TWIST: [(u32, [f64; 2]); 8] = [
 ];
 
 /// Corners of a face, with targets that flip it.
-const TURNED: [(u32, [f64; 2]); 3] = [(30, [0.4, 0.4]), (31, [0.4, 0.6]), (40, [0.6, 0.4])];
+pub(crate) const TURNED: [(u32, [f64; 2]); 3] = [(30, [0.4, 0.4]), (31, [0.4, 0.6]), (40, [0.6, 0.4])];
 
 /// True if the embedding on the screen was relaxed, and is proved.
 fn is_relaxed(window: &Window) -> bool {

@@ -8,10 +8,12 @@ use egui::{Key, Modifiers, Pos2};
 use freebound::session::Action;
 use freebound::ui::{PageRequest, Request, SelectBy, SelectionKind};
 use freebound::view::{ElementKind, ElementSet, MeshElement};
-use freebound_core::mesh::VertexId;
+use freebound_core::mesh::{EdgeId, FaceId, VertexId};
+use freebound_testkit::assert_message;
 use glam::DVec2;
 
 use crate::charts::{until_laid_out, with_sheet_alone, with_sheets};
+use crate::constrained;
 use crate::harness::{Window, sheet};
 use crate::page::{spot, until, until_proved};
 
@@ -141,6 +143,182 @@ fn enter_shows_the_chart_of_the_selected_elements_alone_with_these() {
     }
 }
 
+/// Adjacent faces inside a chart: those at its first inner edge.
+fn inner_faces(window: &Window, chart: usize) -> [FaceId; 2] {
+    let page = window.editor().session.page().expect("a page");
+    let (mesh, rim) = (page.charts[chart].mesh(), page.charts[chart].mesh().boundary_loop());
+    let is_inner = |edge: &EdgeId| mesh.ends(*edge).iter().all(|end| !rim.contains(end));
+    let edge = mesh.edges().find(is_inner).expect("an edge inside");
+    let side = mesh.halfedge(edge);
+    [side, mesh.twin(side)].map(|side| mesh.face_of(side).expect("faces on both sides"))
+}
+
+/// Selects faces of a chart of the page.
+fn select_faces(window: &mut Window, chart: usize, faces: &[FaceId]) {
+    window.press(CTRL, Key::Num3);
+    let page = window.editor().session.page().expect("a page");
+    let before: usize = page.charts[..chart].iter().map(|chart| chart.mesh().mesh().real_triangles().len()).sum();
+    for face in faces {
+        let element = MeshElement::Face(FaceId::from_index(before + face.index()));
+        window.editor_mut().handle(Request::SelectElement { element, adds: true });
+    }
+    assert_eq!(of_page(window).faces().len(), faces.len());
+}
+
+#[test]
+fn selected_faces_stay_faces_on_the_chart_that_enter_shows_and_are_cut_around() {
+    for chart in 0..3 {
+        let mut window = with_sheets();
+        let faces = inner_faces(&window, chart);
+        select_faces(&mut window, chart, &faces);
+        window.key(Key::Enter);
+        until(&mut window, |editor| !editor.selection.vertices().is_empty());
+        let elements = window.editor().selection.elements();
+        assert_eq!((elements.kind(), elements.faces().len(), elements.vertices().len()), (ElementKind::Faces, 2, 4));
+        window.press(Modifiers::SHIFT, Key::X);
+        until_laid_out(&mut window);
+        assert_eq!(window.editor().session.seams().edges().len(), 4, "the sides of both, not the edge between them");
+    }
+}
+
+#[test]
+fn elements_return_with_the_cut_and_with_its_undo() {
+    let mut window = with_sheets();
+    let faces = inner_faces(&window, 1);
+    select_faces(&mut window, 1, &faces);
+    let before = of_page(&window);
+    window.press(Modifiers::SHIFT, Key::X);
+    until_proved(&mut window);
+    let cut = of_page(&window);
+    assert_eq!((cut.kind(), cut.faces().len(), charts(&window).len()), (ElementKind::Faces, 2, 1));
+    window.press(CTRL, Key::Z);
+    until_proved(&mut window);
+    assert_eq!(of_page(&window), before);
+
+    let mut alone = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    alone.press(CTRL, Key::Num3);
+    let faces = [40, 41, 90].map(|face| MeshElement::Face(FaceId::new(face)));
+    for element in faces {
+        alone.editor_mut().handle(Request::SelectElement { element, adds: true });
+    }
+    let before = alone.editor().selection.elements().clone();
+    alone.press(Modifiers::SHIFT, Key::X);
+    until_proved(&mut alone);
+    assert!(alone.editor().session.charts().is_some());
+    alone.press(CTRL, Key::Z);
+    alone.settle();
+    assert_eq!(*alone.editor().selection.elements(), before, "also those on charts that were not shown");
+}
+
+#[test]
+fn clicks_select_vertices_after_a_vertex_was_selected_by_its_number() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    for kind in [ElementKind::Edges, ElementKind::Faces] {
+        window.editor_mut().handle(Request::SetSelectionKind(SelectionKind::Elements(kind)));
+        window.editor_mut().handle(Request::GoToFileVertices(vec![VertexId::new(40)]));
+        window.step();
+        assert_eq!(window.editor().element_kind(), Some(ElementKind::Vertices));
+        window.press(CTRL, Key::CloseBracket);
+        assert!(window.editor().selection.vertices().len() > 4, "a vertex with its neighbours");
+    }
+}
+
+#[test]
+fn a_selected_face_stays_a_face_while_steps_arrive() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    window.choose("Method", "Mean-value iteration");
+    window.press(CTRL, Key::Num3);
+    for face in [3, 50, 80] {
+        let element = MeshElement::Face(FaceId::new(face));
+        window.editor_mut().handle(Request::Do(Action::Step));
+        window.editor_mut().handle(Request::SelectElement { element, adds: false });
+        window.settle();
+        let elements = window.editor().selection.elements();
+        assert_eq!(elements.faces().iter().copied().collect::<Vec<_>>(), [FaceId::new(face)]);
+    }
+}
+
+#[test]
+fn a_seam_follows_split_edges_but_not_the_inside_of_faces() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    constrained::place(&mut window, &constrained::TURNED);
+    let outcome = window.outcome();
+    let refinement = outcome.step.candidate.refinement.as_ref().expect("new vertices");
+    let old = refinement.old_vertex_count();
+    let mesh = refinement.disk().clone();
+    let split = refinement.new_vertices()[0].edge;
+    window.press(CTRL, Key::Num2);
+    let select = |window: &mut Window, edge: [VertexId; 2]| {
+        window.editor_mut().handle(Request::SelectElement { element: MeshElement::Edge(edge), adds: false });
+        window.press(Modifiers::SHIFT, Key::X);
+        window.settle();
+    };
+    // Both ends of an edge inside a face are new vertices of different edges, or one is none of its edge.
+    let is_part_of = |v: VertexId, other: VertexId| {
+        let edge = refinement.new_vertices()[v.index() - old].edge;
+        edge.contains(&other) || (other.index() >= old && refinement.new_vertices()[other.index() - old].edge == edge)
+    };
+    let is_inner = |ends: &[VertexId; 2]| {
+        let [a, b] = *ends;
+        b.index() >= old && !is_part_of(b, a)
+    };
+    let all = mesh.edges().filter(|&edge| !mesh.is_virtual_edge(edge)).map(|edge| mesh.ends(edge));
+    let inner = all.map(|[a, b]| [a.min(b), a.max(b)]).find(is_inner).expect("an edge inside a face");
+    select(&mut window, inner);
+    assert!(window.editor().session.seams().edges().is_empty());
+    let message = window.editor().session.messages().last().expect("it is said");
+    assert_message("elements-window-inner-edge", &message.text);
+    let part = [split[0], VertexId::from_index(old)];
+    select(&mut window, part);
+    let seams: Vec<_> = window.editor().session.seams().edges().iter().copied().collect();
+    assert_eq!(seams, [split], "the whole edge of the file");
+}
+
+#[test]
+fn every_way_of_selecting_has_an_effect_on_a_single_element_of_every_kind() {
+    for kind in [ElementKind::Vertices, ElementKind::Edges, ElementKind::Faces] {
+        let mut window = with_sheets();
+        window.editor_mut().handle(Request::SetSelectionKind(SelectionKind::Elements(kind)));
+        let count = |window: &Window| {
+            let elements = of_page(window);
+            match kind {
+                ElementKind::Vertices => elements.vertices().len(),
+                ElementKind::Edges => elements.edges().len(),
+                ElementKind::Faces => elements.faces().len(),
+            }
+        };
+        let by = |window: &mut Window, by: SelectBy| {
+            window.editor_mut().handle(Request::SelectBy(by));
+            count(window)
+        };
+        let all = by(&mut window, SelectBy::All);
+        let face = inner_faces(&window, 0)[0];
+        let corners = window.editor().session.page().expect("a page").charts[0].mesh().face(face);
+        let element = match kind {
+            ElementKind::Vertices => MeshElement::Vertex(corners[0]),
+            ElementKind::Edges => MeshElement::Edge([corners[0], corners[1]]),
+            ElementKind::Faces => MeshElement::Face(face),
+        };
+        window.editor_mut().handle(Request::SelectElement { element, adds: false });
+        assert_eq!(count(&window), 1, "{kind:?}");
+        assert_eq!(by(&mut window, SelectBy::Invert), all - 1);
+        assert_eq!(by(&mut window, SelectBy::Invert), 1);
+        let grown = by(&mut window, SelectBy::Grow);
+        assert!(grown > 3, "{kind:?}: {grown}");
+        let shrunk = by(&mut window, SelectBy::Shrink);
+        assert!((1..grown).contains(&shrunk), "{kind:?}: {shrunk} of {grown}");
+        by(&mut window, SelectBy::Connected);
+        assert_eq!(charts(&window), [0].into());
+        let chart = count(&window);
+        assert!(grown < chart && chart < all, "{kind:?}: {chart} of {all}");
+        let boundary = by(&mut window, SelectBy::Boundary);
+        assert_eq!(charts(&window), [0, 1, 2].into());
+        assert!(chart < all && boundary < all, "{kind:?}: {boundary}");
+        let worst = by(&mut window, SelectBy::Distorted);
+        assert!((1..all / 2).contains(&worst), "{kind:?}: {worst}");
+    }
+}
+
 #[test]
 fn every_way_of_selecting_applies_to_every_kind_on_the_page_and_alone() {
     for alone in [false, true] {
@@ -174,7 +352,7 @@ fn the_mesh_is_cut_around_selected_faces_and_joined_again() {
     let inner = window.editor().session.page().expect("a page").charts[0].mesh().boundary_loop().to_vec();
     let mesh = window.editor().session.page().expect("a page").charts[0].mesh().clone();
     let face = mesh.mesh().real_triangles().iter().position(|corners| corners.iter().all(|v| !inner.contains(v)));
-    let face = freebound_core::mesh::FaceId::from_index(face.expect("a face inside"));
+    let face = FaceId::from_index(face.expect("a face inside"));
     window.editor_mut().handle(Request::SelectElement { element: MeshElement::Face(face), adds: false });
     window.settle();
     window.press(Modifiers::SHIFT, Key::X);
@@ -228,6 +406,17 @@ fn edges_and_faces_of_a_chart_alone_are_picked_in_both_panes() {
             let elements = window.editor().selection.elements();
             assert_eq!((elements.kind(), elements.is_empty()), (kind, false), "{at:?}");
         }
+        let embedding = window.embedding();
+        let corners = [30, 31, 40].map(VertexId::new);
+        let middle = |of: &[VertexId]| of.iter().map(|&v| embedding[v]).sum::<DVec2>() / of.len() as f64;
+        let (at, expected) = match kind {
+            ElementKind::Edges => (middle(&corners[..2]), corners[..2].to_vec()),
+            _ => (middle(&corners), corners.to_vec()),
+        };
+        let at = window.place_in_plane(at);
+        window.click_at(at, Modifiers::NONE);
+        let picked: Vec<VertexId> = window.editor().selection.vertices().iter().copied().collect();
+        assert_eq!(picked, expected, "{kind:?}");
         // A press beside the mesh selects nothing.
         let corner = window.plane_view().min + egui::Vec2::splat(3.0);
         window.click_at(corner, Modifiers::NONE);

@@ -38,6 +38,7 @@ mod messages;
 mod morph;
 mod newcomer;
 mod page;
+mod page_pins;
 mod pane_shading;
 mod panels;
 mod picture_filter;

@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use freebound::session::{ChartPage, LockState};
-use freebound::ui::{Editor, GestureKind, PageRequest, Snap};
+use freebound::ui::{Editor, GestureKind, PageRequest, Request, Snap};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::{TriMesh, VertexId};
 use freebound_testkit::{Random, assert_message, shaped};
@@ -501,6 +501,11 @@ impl Walk {
                 let brush = self.one_of(&BRUSHES);
                 self.say(brush.to_owned());
                 self.window.click(brush);
+            }
+            4 if self.random.below(2) == 0 => {
+                self.say("Fix the selection".to_owned());
+                self.window.editor_mut().handle(Request::FixSelection);
+                self.window.step();
             }
             0 | 1 => {
                 let (modifiers, keys) = self.one_of(&WALK_KEYS);

@@ -130,19 +130,17 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         page_menu(menu);
     }
     menu.separator();
-    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some() && !editor.shows_page();
-    menu.item(
-        when(fixable, "Select vertices of one chart, shown alone, first"),
-        "Fix the selection",
-        Action::Fix(editor.selection.vertices().iter().copied().collect()),
-    );
-    menu.item(
-        when(editor.pins_selected().next().is_some(), "No pin is selected"),
-        "Free the selected pins",
-        Request::UnpinSelected,
-    );
+    let fixable = when(editor.can_fix_selection(), "Select vertices, edges or faces first");
+    menu.item(fixable, "Fix the selection", Request::FixSelection);
+    let has_pins = when(editor.has_selected_pins(), "No pin is selected");
+    menu.item(has_pins, "Free the selected pins", Request::UnpinSelected);
     let pin_count = session.document().targets.len();
-    menu.item(when(pin_count > 0, NO_PINS), "Free all pins", Action::UnpinAll);
+    if editor.shows_page() {
+        let all = editor.pins_by_chart();
+        menu.item(when(!all.is_empty(), NO_PINS), "Free all pins", Action::UnpinOnPage(all));
+    } else {
+        menu.item(when(pin_count > 0, NO_PINS), "Free all pins", Action::UnpinAll);
+    }
     menu.separator();
     menu.item(when(pin_count > 0, NO_PINS), "Mirror the targets", Action::MirrorTargets);
     menu.item(when(pin_count > 1, "Place at least two pins first"), "Fit the targets to the mesh", Action::FitTargets);
@@ -162,7 +160,7 @@ fn select_menu(menu: &mut MenuBuilder<'_>) {
         }
     });
     for by in SelectBy::ALL {
-        let allowed = when(editor.can_select_by(by), by.reason(editor.element_kind().is_none()));
+        let allowed = when(editor.can_select_by(by), by.reason(editor.element_kind()));
         menu.explained(allowed, by.words(), Request::SelectBy(by));
     }
     menu.separator();
@@ -231,10 +229,15 @@ fn view_menu(menu: &mut MenuBuilder<'_>) {
     menu.item(when(has_defects, "There are no defects"), "Next defect", Request::StepDefect(1));
     menu.item(when(has_defects, "There are no defects"), "Previous defect", Request::StepDefect(-1));
     if editor.session.charts().is_some() {
-        let has_selected = editor.shows_page() && !editor.plane.page.selected().is_empty();
+        let page = &editor.plane.page;
+        let has_selected = editor.shows_page() && !(page.selected().is_empty() && page.elements().is_empty());
         menu.part("Charts", |menu| {
             menu.switch(editor.shows_page(), "All charts on the page", PageRequest::Toggle.into());
-            menu.item(when(has_selected, NO_CHART), "Show one alone", PageRequest::Open(None));
+            menu.item(
+                when(has_selected, "Select a chart of the page, or a part of it, first"),
+                "Show one alone",
+                PageRequest::Open(None),
+            );
             menu.item(ALWAYS, "Next chart", Request::StepChart(1));
             menu.item(ALWAYS, "Previous chart", Request::StepChart(-1));
         });

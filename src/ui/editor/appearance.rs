@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::async_scene::AsyncScene;
 use super::checker::Checker;
-use super::colour_table::{ShownColumn, vertices_in_file};
+use super::colour_table::ShownColumn;
+use super::in_file::vertices_in_file;
 use super::paint::{BrushPaint, Legend, PaintKey, PaintValues};
 use super::scene::{MeshScene, PlaneScene};
 use crate::render::{PictureLayer, Sampling};

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::async_scene::AsyncScene;
+use super::in_file::{face_in_source, vertex_in_source};
 use crate::session::{JobFailure, Model, Wake};
 use freebound_core::mesh::{FaceId, TriMesh, VertexId};
 use freebound_io::{ElementCounts, TableElement, TableError, ValueColumn, ValueTable};
@@ -93,28 +94,15 @@ impl ColourTable {
     }
 }
 
-/// Vertex of the file for each vertex of the repaired mesh; `None` if they are equal.
-pub(super) fn vertices_in_file(model: &Model) -> Option<Vec<VertexId>> {
-    model.whole_repaired().map(|whole| whole.vertices_of(&model.source.polygons))
-}
-
 impl ShownColumn<'_> {
     /// Value of each face of a mesh of a model. A face takes the mean of its corners that have a value. `in_file` is
-    /// the result of [`vertices_in_file`].
+    /// the result of [`vertices_in_file`](super::in_file::vertices_in_file).
     pub(super) fn values_on(&self, mesh: &TriMesh, model: &Model, in_file: Option<&[VertexId]>) -> Vec<f64> {
         let values = &self.column.values;
         let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
-        let of_vertex = |vertex: VertexId| {
-            if vertex.index() >= model.vertex_count() {
-                return f64::NAN;
-            }
-            let whole = model.vertex_in_file(vertex);
-            at(in_file.map_or(Some(whole), |of| of.get(whole.index()).copied()).map_or(usize::MAX, VertexId::index))
-        };
-        let of_face = |polygon: u32| match model.prepared.repaired.as_deref() {
-            Some(repaired) => repaired.face_in_file(polygon).map_or(f64::NAN, |face| at(face.index())),
-            None => at(polygon as usize),
-        };
+        let of_vertex =
+            |vertex: VertexId| vertex_in_source(model, in_file, vertex).map_or(f64::NAN, |of_file| at(of_file.index()));
+        let of_face = |polygon: u32| face_in_source(model, polygon).map_or(f64::NAN, |face| at(face.index()));
         match self.element {
             TableElement::Vertex => {
                 let corners = mesh.real_triangles().iter();

@@ -9,6 +9,8 @@ use crate::view::{EdgeList, ElementMesh, ElementSet, Revision};
 #[derive(Clone, Debug, Default)]
 pub(super) struct DrawnElements {
     elements: ElementSet,
+    /// Mesh that the elements were found on, by its arrays. Faces have other numbers on other meshes.
+    found_on: Option<Revision>,
     /// Number of changes of the elements.
     revision: u64,
     /// Edges on the mesh with these arrays, after a number of changes.
@@ -20,9 +22,20 @@ impl DrawnElements {
         &self.elements
     }
 
-    pub(super) fn set(&mut self, elements: ElementSet) {
-        self.elements = elements;
+    /// Sets elements that were found on the mesh with these arrays. Vertices and edges need none.
+    pub(super) fn set(&mut self, elements: ElementSet, found_on: Option<Revision>) {
+        (self.elements, self.found_on) = (elements, found_on);
         self.revision += 1;
+    }
+
+    /// True if the elements have their numbers on the mesh with these arrays.
+    pub(super) fn are_of(&self, arrays: Revision) -> bool {
+        self.elements.faces().is_empty() || self.found_on == Some(arrays)
+    }
+
+    /// Keeps the elements on a mesh with the same numbers, which has these arrays.
+    pub(super) fn stay_on(&mut self, arrays: Revision) {
+        self.found_on = self.found_on.map(|_| arrays);
     }
 
     pub(super) fn change(&mut self, change: impl FnOnce(&mut ElementSet)) {
@@ -39,7 +52,7 @@ impl DrawnElements {
     /// Finds the edges of the elements on a mesh, unless they are known.
     pub(super) fn refresh<'a>(&mut self, arrays: Revision, mesh: impl FnOnce() -> ElementMesh<'a>) {
         if self.lines(arrays).is_none() {
-            let has_edges = self.elements.vertices().len() > 1;
+            let has_edges = self.elements.vertices().len() > 1 && self.are_of(arrays);
             let edges = if has_edges { mesh().edges_in(&self.elements) } else { BTreeSet::new() };
             self.lines = Some((self.revision, arrays, Arc::new(EdgeList::new(edges.into_iter().collect()))));
         }

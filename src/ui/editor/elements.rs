@@ -1,14 +1,16 @@
 //! Selection of vertices, edges and faces, on the chart on the screen and on the page; seams along it.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::Editor;
-use super::colour_table::vertices_in_file;
-use crate::session::{Action, Model};
+use super::file_elements::{FileElements, NumberedChart, NumberedMesh};
+use super::page::NumberedPage;
+use crate::session::Action;
 use crate::ui::state::{Edge, PageRequest, SelectionKind, Tool};
 use crate::view::{ElementKind, ElementMesh, ElementSet, MeshEdge, MeshElement};
-use freebound_core::mesh::{Seams, VertexId};
+use freebound_core::mesh::{PolygonMesh, Seams, VertexId};
 
 /// Kinds of elements.
 impl Editor {
@@ -36,6 +38,13 @@ impl Editor {
         if self.shows_page() { self.plane.page.elements() } else { self.selection.elements() }
     }
 
+    /// Selected elements on the mesh that is shown. Faces of another mesh, which a preview hides, count as vertices.
+    pub(super) fn selected_on_shown_mesh(&self) -> Cow<'_, ElementSet> {
+        let elements = self.selected_elements();
+        let are_there = self.shows_page() || self.mesh_scene().is_none_or(|scene| self.selection.are_of(scene));
+        if are_there { Cow::Borrowed(elements) } else { Cow::Owned(elements.clone().into_vertices()) }
+    }
+
     /// Result of a computation on the mesh that is shown. `None` if there is none, or just after a change of chart.
     pub(super) fn on_shown_mesh<T>(&self, compute: impl FnOnce(&ElementMesh<'_>) -> T) -> Option<T> {
         if self.shows_page() {
@@ -51,7 +60,24 @@ impl Editor {
             self.plane.page.select([]);
             self.plane.page.select_elements(elements);
         } else {
-            self.selection.select_elements(elements);
+            let found_on = self.mesh_scene().map(|scene| scene.arrays.revision);
+            self.selection.select_elements(elements, found_on);
+        }
+    }
+
+    /// Clicks select the kind of what is selected: other tools select vertices, and edges or faces become vertices on
+    /// another mesh.
+    pub(super) fn keep_selection_kind(&mut self) {
+        let (selected, now) = (self.selected_elements(), self.element_kind());
+        let kind = selected.kind();
+        if selected.is_empty() || now.is_none() || now == Some(kind) {
+            return;
+        }
+        if self.selection.kind == SelectionKind::Charts {
+            let vertices = selected.clone().into_vertices();
+            self.set_elements(vertices);
+        } else {
+            self.selection.kind = SelectionKind::Elements(kind);
         }
     }
 
@@ -91,7 +117,8 @@ impl Editor {
                 }
             }
             SelectionKind::Elements(kind) => {
-                if let Some(elements) = self.on_shown_mesh(|mesh| mesh.converted(self.selected_elements(), kind)) {
+                if let Some(elements) = self.on_shown_mesh(|mesh| mesh.converted(&self.selected_on_shown_mesh(), kind))
+                {
                     self.set_elements(elements);
                 }
             }
@@ -113,11 +140,12 @@ impl Editor {
     /// Chart of the element under the pointer, on the page.
     pub(in crate::ui) fn chart_of_element(&self) -> Option<usize> {
         let scene = self.plane.page.scene()?;
-        let vertex = match self.pointer.element()? {
-            MeshElement::Vertex(vertex) | MeshElement::Edge([vertex, _]) => vertex,
-            MeshElement::Face(face) => *scene.mesh.triangles.get(face.index())?.first()?,
-        };
-        scene.on_chart(vertex).map(|(chart, _)| chart)
+        match self.pointer.element()? {
+            MeshElement::Vertex(vertex) | MeshElement::Edge([vertex, _]) => {
+                scene.on_chart(vertex).map(|(chart, _)| chart)
+            }
+            MeshElement::Face(face) => scene.chart_of_face(face),
+        }
     }
 
     /// Charts with selected elements of the page.
@@ -132,18 +160,21 @@ impl Editor {
 impl Editor {
     /// Selects an element of what is shown, or adds it to the selection, or removes it.
     pub(super) fn select_element(&mut self, element: MeshElement, adds: bool) {
-        let before = self.selected_elements();
-        let select = |mesh: &ElementMesh<'_>| if adds { mesh.toggled(before, element) } else { mesh.single(element) };
-        if let Some(elements) = self.on_shown_mesh(select) {
+        let selected = self.on_shown_mesh(|mesh| {
+            if adds { mesh.toggled(&self.selected_on_shown_mesh(), element) } else { mesh.single(element) }
+        });
+        if let Some(elements) = selected {
             self.set_elements(elements);
         }
     }
 
     /// Adds elements of what is shown to the selection, which becomes one of their kind.
     pub(super) fn add_elements(&mut self, added: &ElementSet) {
-        let before = self.selected_elements();
-        let union = |mesh: &ElementMesh<'_>| mesh.union(&mesh.converted(before, added.kind()), added);
-        if let Some(elements) = self.on_shown_mesh(union) {
+        let union = self.on_shown_mesh(|mesh| {
+            let before = mesh.converted(&self.selected_on_shown_mesh(), added.kind());
+            mesh.union(&before, added)
+        });
+        if let Some(elements) = union {
             self.set_elements(elements);
         }
     }
@@ -151,20 +182,16 @@ impl Editor {
     /// Shows a chart alone with the elements that are selected on it.
     pub(super) fn open_chart_with_elements(&mut self, chart: usize) {
         let Some(scene) = self.plane.page.scene() else { return };
-        let on_chart = |vertex: &VertexId| scene.on_chart(*vertex).filter(|(of, _)| *of == chart);
-        let vertices: Vec<VertexId> =
-            self.plane.page.elements().vertices().iter().filter_map(on_chart).map(|(_, v)| v).collect();
-        if self.session.chart_on_screen() == Some(chart) {
-            self.leave_page();
-            return self.selection.select(vertices);
-        }
-        let Some(model) = scene.model_of(chart) else { return };
-        let whole = vertices_in_file(model);
-        let in_file: Vec<VertexId> =
-            vertices.into_iter().filter_map(|v| file_vertex(model, whole.as_deref(), v)).collect();
+        let of_file = FileElements::new(self.plane.page.elements(), &NumberedPage::of_chart(scene, chart));
         self.leave_page();
-        self.selection.await_mesh(in_file);
-        self.act(Action::ShowChart(chart));
+        if self.session.chart_on_screen() != Some(chart) {
+            self.selection.await_mesh(of_file);
+            return self.act(Action::ShowChart(chart));
+        }
+        if let Some(scene) = self.mesh_scene().map(Arc::clone) {
+            let elements = of_file.on(&NumberedChart { scene: &scene, awaited: &BTreeSet::new() });
+            self.selection.select_elements(elements, Some(scene.arrays.revision));
+        }
     }
 }
 
@@ -172,9 +199,21 @@ impl Editor {
 impl Editor {
     /// Cuts the mesh along the selected edges, or around the selected faces.
     pub(super) fn cut_selection(&mut self) {
-        match self.seams_along_selection() {
-            Some(seams) => self.act(Action::SetSeams(seams)),
-            None => self.session.tell_no_edge("nothing to cut: select edges between two faces, or some of the faces"),
+        let Some(edges) = self.on_shown_mesh(|mesh| mesh.edges_to_cut(&self.selected_on_shown_mesh())) else { return };
+        let before = self.session.seams();
+        let listed = self.edges_in_file(&edges);
+        let seams = before.with(listed.in_file);
+        let is_more = seams.edges().len() > before.edges().len();
+        if is_more {
+            self.act(Action::SetSeams(seams));
+        }
+        match listed.not_in_file {
+            0 if is_more => {}
+            0 => self.session.tell_no_edge("nothing to cut: select edges between two faces, or some of the faces"),
+            count => {
+                let edges = if count == 1 { "1 edge lies" } else { &format!("{count} edges lie") };
+                self.session.tell_no_edge(&format!("{edges} inside faces of the file, so no seam can follow there"));
+            }
         }
     }
 
@@ -182,61 +221,53 @@ impl Editor {
     pub(super) fn join_selection(&mut self) {
         match self.seams_without_selection() {
             Some(seams) => self.act(Action::SetSeams(seams)),
+            None if self.session.seams().of_texture => {
+                self.session.tell_no_edge("nothing to join: seams of the file's texture coordinates stay");
+            }
             None => self.session.tell_no_edge("nothing to join: no selected edge is a seam"),
         }
     }
 
-    /// Seams with a cut along the selected edges, or around the selected faces. `None` if it changes nothing.
-    fn seams_along_selection(&self) -> Option<Seams> {
-        let edges = self.on_shown_mesh(|mesh| mesh.edges_to_cut(self.selected_elements()))?;
-        let before = self.session.seams();
-        let seams = before.with(self.edges_in_file(&edges));
-        (seams.edges().len() > before.edges().len()).then_some(seams)
-    }
-
     /// Seams without the selected edges. `None` if it changes nothing.
     fn seams_without_selection(&self) -> Option<Seams> {
-        let edges = self.on_shown_mesh(|mesh| mesh.edges_in(self.selected_elements()))?;
-        let (edges, before) = (self.edges_in_file(&edges), self.session.seams());
+        let edges = self.on_shown_mesh(|mesh| mesh.edges_in(&self.selected_on_shown_mesh()))?;
+        let (edges, before) = (self.edges_in_file(&edges).in_file, self.session.seams());
         let is_automatic = edges.iter().any(|edge| before.automatic().contains(edge));
         let listed = if is_automatic { before.all_listed() } else { before.clone() };
         let seams = listed.without(edges);
         (seams.edges().len() < listed.edges().len()).then_some(seams)
     }
 
-    /// Edges of what is shown as edges of the file. Edges at new vertices have none.
-    fn edges_in_file(&self, edges: &BTreeSet<MeshEdge>) -> Vec<Edge> {
-        let Some(first) = self.shown_model() else { return Vec::new() };
-        let whole = vertices_in_file(first);
-        let page = self.plane.page.scene().filter(|_| self.shows_page());
-        let of_file = |vertex: VertexId| match page {
-            None => file_vertex(first, whole.as_deref(), vertex),
-            Some(scene) => {
-                let (chart, vertex) = scene.on_chart(vertex)?;
-                file_vertex(scene.model_of(chart)?, whole.as_deref(), vertex)
-            }
+    /// Edges of what is shown, as edges of the file.
+    fn edges_in_file(&self, edges: &BTreeSet<MeshEdge>) -> EdgesInFile {
+        let Some(model) = self.session.model() else { return EdgesInFile::default() };
+        let found: Vec<Option<Edge>> = if let Some(scene) = self.plane.page.scene().filter(|_| self.shows_page()) {
+            let page = NumberedPage::new(scene);
+            edges.iter().map(|&edge| page.edge(edge)).collect()
+        } else if let Some(scene) = self.mesh_scene() {
+            let chart = NumberedChart { scene, awaited: &BTreeSet::new() };
+            edges.iter().map(|&edge| chart.edge(edge)).collect()
+        } else {
+            return EdgesInFile::default();
         };
-        let in_file = |&[a, b]: &MeshEdge| {
-            let (a, b) = (of_file(a)?, of_file(b)?);
-            Some([a.min(b), a.max(b)])
-        };
-        edges.iter().filter_map(in_file).collect()
-    }
-
-    /// Model of the chart on the screen, or of the first chart of the page. All charts belong to one file.
-    fn shown_model(&self) -> Option<&Model> {
-        match self.plane.page.scene().filter(|_| self.shows_page()) {
-            Some(scene) => scene.model_of(0),
-            None => self.session.model().map(Arc::as_ref),
-        }
+        let candidates: BTreeSet<Edge> = found.iter().flatten().copied().collect();
+        let in_file = edges_of_faces(&model.source.polygons, &candidates);
+        let not_in_file = found.iter().filter(|edge| edge.is_none_or(|edge| !in_file.contains(&edge))).count();
+        EdgesInFile { in_file, not_in_file }
     }
 }
 
-/// Vertex of the file for a vertex of a chart. `whole` is the result of [`vertices_in_file`].
-fn file_vertex(model: &Model, whole: Option<&[VertexId]>, vertex: VertexId) -> Option<VertexId> {
-    if vertex.index() >= model.vertex_count() {
-        return None;
-    }
-    let repaired = model.vertex_in_file(vertex);
-    whole.map_or(Some(repaired), |whole| whole.get(repaired.index()).copied())
+/// Edges of what is shown, in the file.
+#[derive(Debug, Default)]
+struct EdgesInFile {
+    in_file: BTreeSet<Edge>,
+    /// Number of edges that are none of the file: they lie inside a face with new vertices.
+    not_in_file: usize,
+}
+
+/// Edges of a set that are sides of faces.
+fn edges_of_faces(polygons: &PolygonMesh, edges: &BTreeSet<Edge>) -> BTreeSet<Edge> {
+    let faces = (0..polygons.face_count()).map(|face| polygons.face(face));
+    let sides = faces.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
+    sides.map(|(&a, &b)| [a.min(b), a.max(b)]).filter(|edge| edges.contains(edge)).collect()
 }

@@ -2,7 +2,7 @@
 //! of several.
 
 use crate::session::Model;
-use freebound_core::mesh::{PolygonMesh, Repaired, VertexId};
+use freebound_core::mesh::{FaceId, PolygonMesh, Repaired, VertexId};
 
 /// Vertices of a mesh on the screen and in its file. New vertices of a step have no vertex in the file.
 #[derive(Debug)]
@@ -27,16 +27,15 @@ impl InFile {
             by_file.sort_by_key(|vertex| of[vertex.index()]);
             Others { of, by_file }
         };
-        let source = &model.source.polygons;
         // A chart has its own numbering, so the copies of a vertex are found in the whole mesh.
-        let whole = model.whole_repaired();
-        let of_whole = whole.map(|whole| whole.vertices_of(source));
         let all = || (0..model.vertex_count()).map(VertexId::from_index);
-        let of = of_whole.map(|of| all().map(|vertex| of[model.vertex_in_file(vertex).index()]).collect());
+        let of =
+            vertices_in_file(model).map(|of| all().map(|vertex| of[model.vertex_in_file(vertex).index()]).collect());
+        let whole = model.whole_repaired();
         Self {
             vertex_count: model.vertex_count(),
             other: of.map(others),
-            is_several: whole.map(|whole| several(whole, source)).unwrap_or_default(),
+            is_several: whole.map(|whole| several(whole, &model.source.polygons)).unwrap_or_default(),
         }
     }
 
@@ -58,6 +57,30 @@ impl InFile {
         let same = (self.other.is_none() && of_file.index() < self.vertex_count).then_some(of_file);
         let several = self.other.as_ref().map_or(&[][..], |others| others.copies(of_file));
         same.into_iter().chain(several.iter().copied())
+    }
+}
+
+/// Vertex of the file for each vertex of the repaired mesh; `None` if they are equal.
+pub(super) fn vertices_in_file(model: &Model) -> Option<Vec<VertexId>> {
+    model.whole_repaired().map(|whole| whole.vertices_of(&model.source.polygons))
+}
+
+/// Number in files of a vertex of a mesh or chart. `None` for a new vertex of a step, and for one that only fills a hole.
+pub(super) fn number_in_file(model: &Model, vertex: VertexId) -> Option<VertexId> {
+    (vertex.index() < model.vertex_count()).then(|| model.vertex_in_file(vertex))
+}
+
+/// Vertex of the file for a vertex of a mesh or chart. `whole` is the result of [`vertices_in_file`].
+pub(super) fn vertex_in_source(model: &Model, whole: Option<&[VertexId]>, vertex: VertexId) -> Option<VertexId> {
+    let repaired = number_in_file(model, vertex)?;
+    whole.map_or(Some(repaired), |whole| whole.get(repaired.index()).copied())
+}
+
+/// Face of the file for a face of a mesh or chart, by the number of its polygon.
+pub(super) fn face_in_source(model: &Model, polygon: u32) -> Option<FaceId> {
+    match model.prepared.repaired.as_deref() {
+        Some(repaired) => repaired.face_in_file(polygon),
+        None => Some(FaceId::new(polygon)),
     }
 }
 

@@ -52,6 +52,7 @@ mod defect;
 mod drawn_elements;
 mod element;
 mod elements;
+mod file_elements;
 mod files;
 mod frames;
 mod gpu;
@@ -90,6 +91,7 @@ pub(super) use element::Element;
 pub(super) use page::PageScene;
 pub(super) use plane::HullScene;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -98,6 +100,7 @@ use eframe::egui;
 use crate::session::{Busy, MessagePlace, RecentFiles, Session};
 use crate::ui::state::{Tab, TimelineView};
 use appearance::PaneShading;
+use file_elements::NumberedChart;
 pub(in crate::ui) use files::BakeChoice;
 use files::Files;
 use freebound_core::mesh::VertexId;
@@ -189,8 +192,17 @@ impl Editor {
                 Arc::ptr_eq(&scene.model.source, &now.source) && scene.model.prepared.form != now.prepared.form
             })
         };
-        let scene = self.mesh.scene().filter(|scene| scene.model_revision == before && has_other_form(scene));
-        self.selection.let_go(|vertex| scene?.in_file.vertex(vertex));
+        let drawn = self.plane.drawn().map(|plane| &plane.mesh).filter(|scene| self.selection.are_of(scene));
+        let scene = drawn.into_iter().chain(self.mesh.scene());
+        // Without a scene, the mesh was never on the screen, and the selection is of the one before it.
+        if let Some(scene) = scene.map(Arc::clone).find(|scene| scene.model_revision == before) {
+            if has_other_form(&scene) {
+                self.selection.keep_of_file(&NumberedChart { scene: &scene, awaited: &BTreeSet::new() });
+            } else {
+                self.selection.forget_of_file();
+            }
+        }
+        self.selection.let_go();
         self.pointer.forget_vertices();
         self.tools.end_drag();
         self.tools.set_pair(None);
@@ -199,10 +211,9 @@ impl Editor {
     /// Restores the selection on the mesh that has just appeared. Returns true if the selection is to be framed. If
     /// certain vertices were awaited, other copies of their vertices of the file are not selected.
     fn take_selection_back(&mut self) -> bool {
-        let awaited = self.opened.take_awaited();
+        let awaited: BTreeSet<VertexId> = self.opened.take_awaited().into_iter().collect();
         let Some(scene) = self.mesh.scene() else { return false };
-        let is_awaited = |copy: VertexId| awaited.is_empty() || awaited.contains(&scene.model.vertex_in_file(copy));
-        self.selection.come_back(|of_file| scene.in_file.copies(of_file).filter(|&copy| is_awaited(copy)).collect())
+        self.selection.come_back(&NumberedChart { scene, awaited: &awaited })
     }
 
     /// Background work, if it has run long enough to show.
@@ -243,6 +254,7 @@ impl Editor {
             }
         }
         self.plane.page.refresh(&self.session, self.mesh.scene());
+        self.keep_selection_kind();
         self.refresh_selection_lines();
         self.tell_failures();
         self.pane_shading.refresh_picture(self.session.document());

@@ -3,6 +3,7 @@
 
 use super::Editor;
 use super::element::Element;
+use super::in_file::number_in_file;
 use super::page::PageScene;
 use super::scene::MeshScene;
 use crate::ui::state::Request;
@@ -23,7 +24,7 @@ impl MeshScene {
 
     /// Number in files of a vertex. `None` for a new vertex, and for a vertex that only fills a hole.
     pub fn number_of(&self, vertex: VertexId) -> Option<VertexId> {
-        (vertex.index() < self.model.vertex_count()).then(|| self.model.vertex_in_file(vertex))
+        number_in_file(&self.model, vertex)
     }
 
     /// Name of a vertex: its number in files, or the edge of a new vertex.
@@ -77,10 +78,8 @@ impl PageScene {
     pub(in crate::ui) fn element_words(&self, element: MeshElement) -> Option<String> {
         let vertex_words = |vertex: VertexId| {
             let (chart, vertex) = self.on_chart(vertex)?;
-            let model = self.model_of(chart)?;
-            let is_given = vertex.index() < model.vertex_count();
-            let words = if is_given { model.vertex_in_file(vertex).to_string() } else { NEW.to_owned() };
-            Some((chart, words))
+            let number = number_in_file(self.model_of(chart)?, vertex);
+            Some((chart, number.map_or_else(|| NEW.to_owned(), |number| number.to_string())))
         };
         let (chart, words) = match element {
             MeshElement::Vertex(vertex) => vertex_words(vertex)?,

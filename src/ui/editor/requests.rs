@@ -28,6 +28,7 @@ impl Editor {
     /// Carries out a request.
     #[expect(clippy::too_many_lines, reason = "a line for each request")]
     pub fn handle(&mut self, request: Request) {
+        self.keep_selection_kind();
         match request {
             Request::Do(action) => self.act(action),
             Request::RunOrPause => self.run_or_pause(),
@@ -88,7 +89,8 @@ impl Editor {
             Request::SetOpacity(opacity) => self.appearance_mut().opacity = opacity.clamp(0.0, 1.0),
             Request::Checker(request) => self.handle_checker(request),
             Request::ToggleSharp => self.pane_shading.toggle_sharp(),
-            Request::UnpinSelected => self.act(Action::Unpin(self.pins_selected().collect())),
+            Request::FixSelection => self.fix_selection(),
+            Request::UnpinSelected => self.unpin_selected(),
             Request::Escape => self.escape(),
             Request::Page(request) => self.handle_page(request),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
@@ -214,7 +216,9 @@ impl Editor {
     /// Shows the chart `by` places after the current one, cyclically; on the page, selects it.
     fn step_chart(&mut self, by: isize) {
         let count = self.session.charts().map(|charts| charts.count());
-        let selected = self.plane.page.selected().first().copied().filter(|_| self.shows_page());
+        let of_elements = || self.charts_of_elements().first().copied();
+        let selected = self.plane.page.selected().first().copied().or_else(of_elements);
+        let selected = selected.filter(|_| self.shows_page());
         let Some((count, now)) = count.zip(selected.or(self.session.chart_on_screen())) else { return };
         let next = (now.cast_signed() + by).rem_euclid(count.cast_signed()).cast_unsigned();
         if self.shows_page() {

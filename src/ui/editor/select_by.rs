@@ -28,11 +28,11 @@ impl Editor {
             SelectBy::Grow | SelectBy::Shrink | SelectBy::SharpEdges | SelectBy::Connected => has_selection,
             SelectBy::Loops | SelectBy::Rings => {
                 let is_for = kind != ElementKind::Faces || by == SelectBy::Loops;
-                let has_loops = |mesh: &ElementMesh<'_>| mesh.has_loops(self.selected_elements());
+                let has_loops = |mesh: &ElementMesh<'_>| mesh.has_loops(&self.selected_on_shown_mesh());
                 has_selection && is_for && self.on_shown_mesh(has_loops).unwrap_or_default()
             }
             SelectBy::Pins => kind == ElementKind::Vertices && !self.pinned_vertices().is_empty(),
-            SelectBy::Distorted => self.distortion_of_faces().is_some(),
+            SelectBy::Distorted => self.distortion_of_charts().is_some(),
             SelectBy::All | SelectBy::Invert | SelectBy::Boundary => self.on_shown_mesh(|_| ()).is_some(),
         }
     }
@@ -53,9 +53,9 @@ impl Editor {
     }
 
     fn elements_selected_by(&self, kind: ElementKind, by: SelectBy) -> Option<ElementSet> {
-        let distortion = if by == SelectBy::Distorted { self.distortion_of_faces()? } else { Vec::new() };
+        let distortion = if by == SelectBy::Distorted { self.distortion_of_charts()?.concat() } else { Vec::new() };
         self.on_shown_mesh(|mesh| {
-            let selected = mesh.converted(self.selected_elements(), kind);
+            let selected = mesh.converted(&self.selected_on_shown_mesh(), kind);
             match by {
                 SelectBy::All => mesh.all(kind),
                 SelectBy::Invert => mesh.inverted(&selected),
@@ -67,7 +67,7 @@ impl Editor {
                 SelectBy::Rings => mesh.rings(&selected),
                 SelectBy::Boundary => mesh.boundary(kind),
                 SelectBy::Pins => mesh.converted(&ElementSet::of_vertices(self.pinned_vertices()), kind),
-                SelectBy::Distorted => mesh.greatest(kind, |face| distortion[face], WORST),
+                SelectBy::Distorted => mesh.greatest(kind, |face| distortion[face].symmetric_dirichlet(), WORST),
             }
         })
     }
@@ -87,15 +87,14 @@ impl Editor {
             .collect()
     }
 
-    /// Symmetric Dirichlet energy of each triangle of what is shown. `None` if it has no map.
-    fn distortion_of_faces(&self) -> Option<Vec<f64>> {
+    /// Distortion of the triangles of each chart of what is shown. `None` if it has no map.
+    fn distortion_of_charts(&self) -> Option<Vec<&[FaceDistortion]>> {
         if self.shows_page() {
             return Some(self.plane.page.scene()?.distortion());
         }
         let (outcome, scene) = (self.session.outcome()?, self.mesh_scene()?);
-        let faces = &outcome.distortion.faces;
-        let is_of_shown = faces.len() == scene.mesh().real_triangles().len();
-        is_of_shown.then(|| faces.iter().map(FaceDistortion::symmetric_dirichlet).collect())
+        let faces = outcome.distortion.faces.as_slice();
+        (faces.len() == scene.mesh().real_triangles().len()).then(|| vec![faces])
     }
 
     fn is_chart_selected_by(&self, chart: usize, by: SelectBy) -> bool {

@@ -7,6 +7,7 @@ use eframe::egui;
 use glam::DVec2;
 
 use super::drawn_elements::DrawnElements;
+use super::file_elements::{FileElements, NumberedChart};
 use super::scene::MeshScene;
 use super::seam_hover::SeamHover;
 use super::seam_tool::SeamTool;
@@ -21,8 +22,9 @@ pub struct Selection {
     elements: DrawnElements,
     /// Kind of elements or charts that clicks and regions select.
     pub(super) kind: SelectionKind,
-    /// Selected vertices of the file, kept while the scene of another preparation is made.
-    of_file: BTreeSet<VertexId>,
+    /// Elements of the file that return with the scene of another preparation. They stay until the user selects others,
+    /// because a cut can lead to a chart that has only some of them, and undo leads back.
+    of_file: Option<FileElements>,
     /// True if the selection is to be framed with that scene.
     is_framed_later: bool,
     defect: Option<usize>,
@@ -51,36 +53,58 @@ impl Selection {
 
     /// Selects exactly these vertices.
     pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
-        self.select_elements(ElementSet::of_vertices(vertices));
+        self.select_elements(ElementSet::of_vertices(vertices), None);
     }
 
-    /// Selects exactly these elements.
-    pub(super) fn select_elements(&mut self, elements: ElementSet) {
-        self.elements.set(elements);
-        self.of_file.clear();
+    /// Selects exactly these elements, which were found on the mesh with these arrays.
+    pub(super) fn select_elements(&mut self, elements: ElementSet, found_on: Option<Revision>) {
+        self.elements.set(elements, found_on);
+        self.of_file = None;
         self.is_framed_later = false;
     }
 
-    /// Clears the vertices because the mesh has changed. Keeps their vertices of the file, if `in_file` returns any.
-    pub(super) fn let_go(&mut self, in_file: impl Fn(VertexId) -> Option<VertexId>) {
-        self.of_file.extend(self.elements.get().vertices().iter().copied().filter_map(in_file));
-        self.elements.set(ElementSet::default());
+    /// Keeps the elements of a mesh by their numbers in the file, because another preparation of it follows.
+    pub(super) fn keep_of_file(&mut self, before: &NumberedChart<'_>) {
+        if self.of_file.is_none() && self.are_of(before.scene) {
+            self.of_file = Some(FileElements::new(self.elements.get(), before));
+        }
     }
 
-    /// Selects vertices of the file once the mesh that has them is on the screen. They are framed then.
-    pub(super) fn await_mesh(&mut self, of_file: Vec<VertexId>) {
+    /// Drops the elements of the file, because another chart follows; not those that are awaited there.
+    pub(super) fn forget_of_file(&mut self) {
+        if !self.is_framed_later {
+            self.of_file = None;
+        }
+    }
+
+    /// Clears the elements because the mesh has changed.
+    pub(super) fn let_go(&mut self) {
+        self.elements.set(ElementSet::default(), None);
+    }
+
+    /// Selects elements of the file once the mesh that has them is on the screen. They are framed then.
+    pub(super) fn await_mesh(&mut self, of_file: FileElements) {
         self.select([]);
-        (self.of_file, self.is_framed_later) = (of_file.into_iter().collect(), true);
+        (self.of_file, self.is_framed_later) = (Some(of_file), true);
     }
 
-    /// Restores the selection from the kept vertices of the file. `copies` returns the vertices of the new mesh. Returns
-    /// true if the selection is to be framed.
-    pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) -> bool {
-        let back: Vec<VertexId> = std::mem::take(&mut self.of_file).into_iter().flat_map(copies).collect();
-        if !back.is_empty() {
-            self.add(back);
+    /// Restores the selection on a new mesh from the kept elements of the file. Returns true if the selection is to be
+    /// framed.
+    pub(super) fn come_back(&mut self, mesh: &NumberedChart<'_>) -> bool {
+        if let Some(of_file) = &self.of_file {
+            self.elements.set(of_file.on(mesh), Some(mesh.scene.arrays.revision));
         }
         self.is_framed_later && !self.vertices().is_empty()
+    }
+
+    /// Selected elements, if they have their numbers on the mesh of a scene.
+    pub(in crate::ui) fn elements_on(&self, scene: &MeshScene) -> Option<&ElementSet> {
+        self.are_of(scene).then(|| self.elements())
+    }
+
+    /// True if the elements have their numbers on the mesh of a scene.
+    pub(super) fn are_of(&self, scene: &MeshScene) -> bool {
+        self.elements.are_of(scene.arrays.revision)
     }
 
     /// True once if the selection is to be framed in the map, too, which follows the mesh.
@@ -93,22 +117,23 @@ impl Selection {
     /// Adds vertices to the selection. Selected edges or faces become their vertices.
     pub fn add(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
         self.elements.change(|elements| elements.add_vertices(vertices));
+        self.of_file = None;
     }
 
     /// Adds a vertex to the selection, or removes it. Selected edges or faces become their vertices.
     pub(super) fn toggle(&mut self, vertex: VertexId) {
         self.elements.change(|elements| elements.toggle_vertex(vertex));
+        self.of_file = None;
     }
 
     /// Keeps the elements that a mesh has. Faces of another mesh, which have other numbers, become their vertices.
     pub(super) fn keep_on(&mut self, scene: &MeshScene) {
         let is_there = |vertex: &VertexId| vertex.index() < scene.mesh().vertex_count();
-        let keeps_faces = self.elements().faces().is_empty() || self.lines(scene.arrays.revision).is_some();
-        if keeps_faces && self.vertices().iter().all(is_there) {
+        if self.are_of(scene) && self.vertices().iter().all(is_there) {
             return;
         }
         let kept: Vec<VertexId> = self.vertices().iter().copied().filter(is_there).collect();
-        self.elements.set(ElementSet::of_vertices(kept));
+        self.elements.set(ElementSet::of_vertices(kept), None);
     }
 
     /// Edges of the selection, to be drawn over the mesh with these arrays.

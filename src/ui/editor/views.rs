@@ -6,6 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::Editor;
 use super::defect::Defect;
+use super::file_elements::FileElements;
+use super::in_file::vertices_in_file;
 use super::page::LEAST_SHARE;
 use super::picture_box::picture_box;
 use crate::session::{Action, Model};
@@ -91,7 +93,7 @@ impl Editor {
             return self.go_to_vertices(numbers.iter().filter_map(|&number| model.vertex_of_file(number)).collect());
         }
         self.leave_page();
-        self.selection.await_mesh(vertices_of_source(&model, &numbers));
+        self.selection.await_mesh(FileElements::of_vertices(vertices_of_source(&model, &numbers)));
         self.opened.await_vertices(numbers);
         if let Some(chart) = elsewhere {
             self.act(Action::ShowChart(chart));
@@ -154,7 +156,6 @@ fn corners_in_file(model: &Model, face: FaceId) -> &[VertexId] {
 
 /// Vertices of the file before cuts and repairs, for vertices by their numbers in files.
 fn vertices_of_source(model: &Model, numbers: &[VertexId]) -> Vec<VertexId> {
-    let Some(whole) = model.whole_repaired() else { return numbers.to_vec() };
-    let of = whole.vertices_of(&model.source.polygons);
+    let Some(of) = vertices_in_file(model) else { return numbers.to_vec() };
     numbers.iter().filter_map(|number| of.get(number.index()).copied()).collect()
 }

@@ -52,7 +52,7 @@ impl Group {
             | Request::SelectBy(_) => Self::Select,
             Request::SetTool(Tool::Seam) | Request::EndSeam | Request::Do(Action::Unwrap(_)) => Self::Seams,
             Request::SetTool(Tool::Brush) | Request::ResizeBrush { .. } => Self::Brushes,
-            Request::SetTool(_) | Request::UnpinSelected => Self::Pins,
+            Request::SetTool(_) | Request::FixSelection | Request::UnpinSelected => Self::Pins,
             Request::Page(_) | Request::StepChart(_) | Request::ToggleLock => Self::Charts,
             Request::Do(Action::Undo | Action::Redo)
             | Request::Ask(_)

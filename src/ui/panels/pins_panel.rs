@@ -67,7 +67,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
 fn no_pins(ui: &mut egui::Ui, is_on_page: bool) {
     let [fix, constrain] = [Tool::Fix, Tool::Constrain].map(|tool| keys_of(ui.ctx(), &Request::SetTool(tool)));
     let gauge = if is_on_page {
-        "A tool for pins shows one chart alone."
+        "A tool for pins shows one chart alone. Fix the selection (menu Edit) pins selected vertices of all charts."
     } else {
         "The hollow squares are gauge pins: they only fix position, rotation and size. Drag one to make it your own."
     };

@@ -64,7 +64,7 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
             "Click a chart to select it; Ctrl + drag selects a box. Drag a chart to move it. Double click shows it alone."
         }
         Tool::Select if editor.shows_page() && editor.movable_charts().is_empty() => {
-            "Locks or pins hold the selected charts. L unlocks, F frames. Shift + click adds."
+            "Locks or pins hold the selected charts. L unlocks, Delete frees the pins, F frames. Shift + click adds."
         }
         Tool::Select if editor.shows_page() => {
             "Drag to move the selected charts; G moves, R turns, S scales them. L locks, F frames. Shift + click adds."

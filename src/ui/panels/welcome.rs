@@ -7,7 +7,7 @@ use eframe::egui::{self, Align, Align2, Layout, Response, RichText, Role, Sense,
 use crate::examples::Example;
 use crate::session::Action;
 use crate::ui::theme::HOVERED;
-use crate::ui::{Control, Editor, FileDialogKind, Request, close_button, theme_of, tip_with_keys};
+use crate::ui::{Control, Editor, FileDialogKind, Request, close_button, keys_of, theme_of};
 
 /// Greatest width of the welcome, points.
 const WIDTH: f32 = 580.0;
@@ -95,10 +95,9 @@ fn ways(ui: &mut egui::Ui, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing = Vec2::splat(gap);
         for (place, beginning) in beginnings.into_iter().enumerate() {
             let response = card(ui, size, &beginning, place == 0);
-            let response = match &beginning.requests[..] {
-                [request, ..] => response.on_hover_text(tip_with_keys(ui, beginning.about, request)),
-                [] => response,
-            };
+            // The card says what it does.
+            let keys = beginning.requests.first().map(|request| keys_of(ui.ctx(), request)).unwrap_or_default();
+            let response = if keys.is_empty() { response } else { response.on_hover_text(keys) };
             if response.clicked() {
                 requests.push(Request::ToggleWelcome);
                 requests.extend(beginning.requests);

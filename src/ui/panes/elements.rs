@@ -1,12 +1,13 @@
 //! Vertices, edges and faces in both panes: the element under the pointer, those in a region, and clicks on them.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use eframe::egui::{self, CursorIcon, Painter, Pos2, Response, Stroke};
 use glam::DVec2;
 
 use super::pane;
-use super::region::Region;
+use super::region::{Region, in_plane};
 use crate::render::LineLayer;
 use crate::ui::editor::PageScene;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
@@ -21,8 +22,12 @@ use freebound_core::mesh::VertexId;
 /// Width of the edges of a selection, points.
 const WIDTH: f32 = 2.5;
 
-/// Greatest number of selected vertices with dots, and of selected triangles with a tint.
+/// Greatest number of selected vertices with dots. The edges between them are always drawn.
 const MARKS_SHOWN: usize = 2000;
+
+/// Greatest number of selected triangles with a tint. More have none, because a part of them would look like another
+/// selection; their edges are always drawn.
+const TINTED: usize = 4000;
 
 /// Opacity of the tint of selected faces.
 const TINT: f32 = 0.25;
@@ -35,7 +40,7 @@ const HIDDEN: f32 = 0.4;
 const MOST_TESTS: usize = 30_000_000;
 
 /// Least number of points of a stroke that are tested.
-const LEAST_POINTS: usize = 60;
+const LEAST_POINTS: usize = 30;
 
 /// Surface whose elements are picked in the mesh pane.
 pub(super) struct Surface<'a> {
@@ -67,9 +72,9 @@ impl<'a> Surface<'a> {
             return Some(MeshElement::Vertex(pick.vertex));
         }
         let hit = self.picker.hit(camera.ray(pointer, size))?;
-        let spot = |vertex: VertexId| view.spot(self.picker.positions()[vertex.index()]).map(plain);
+        let spot = |vertex: VertexId| view.spot(self.picker.positions()[vertex.index()]).map(in_plane);
         let away = |[a, b]: [VertexId; 2]| match (spot(a), spot(b)) {
-            (Some(a), Some(b)) => distance_to_segment(plain(at), [a, b]),
+            (Some(a), Some(b)) => distance_to_segment(in_plane(at), [a, b]),
             _ => f64::INFINITY,
         };
         self.mesh.element_at(kind, hit.face.index(), PICK_RADIUS, away)
@@ -124,11 +129,6 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// Point of the window as a point of the plane.
-fn plain(at: Pos2) -> DVec2 {
-    DVec2::new(f64::from(at.x), f64::from(at.y))
-}
-
 /// Vertices that count for picking and for regions.
 pub(super) fn visibility(editor: &Editor) -> Visibility {
     if editor.selection.through { Visibility::All } else { Visibility::Visible }
@@ -179,11 +179,12 @@ pub(super) fn mark_under_pointer(
 /// it is seen. The edges are drawn with the mesh.
 pub(super) fn mark_selection(
     painter: &Painter,
-    elements: &ElementSet,
+    elements: Option<&ElementSet>,
     mesh: &ElementMesh<'_>,
     theme: &Theme,
     spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
 ) {
+    let Some(elements) = elements else { return };
     if elements.kind() == ElementKind::Vertices {
         for (at, is_seen) in elements.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| spot(vertex)) {
             // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
@@ -191,14 +192,32 @@ pub(super) fn mark_selection(
             pane::dot(painter, at, colour);
         }
     }
+    if elements.faces().len() <= TINTED {
+        tint(painter, elements, mesh, theme, spot);
+    }
+}
+
+/// Tints the selected faces that are seen.
+fn tint(
+    painter: &Painter,
+    elements: &ElementSet,
+    mesh: &ElementMesh<'_>,
+    theme: &Theme,
+    spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
+) {
     let mut tint = egui::Mesh::default();
-    for corners in elements.faces().iter().take(MARKS_SHOWN).filter_map(|&face| mesh.triangle(face)) {
-        if let [Some((a, true)), Some((b, true)), Some((c, true))] = corners.map(&spot) {
-            let first = u32::try_from(tint.vertices.len()).unwrap_or_default();
-            for at in [a, b, c] {
+    // Each vertex is tested once, because a test casts a ray.
+    let mut number_of: HashMap<VertexId, Option<u32>> = HashMap::new();
+    for corners in elements.faces().iter().filter_map(|&face| mesh.triangle(face)) {
+        let numbers = corners.map(|corner| {
+            *number_of.entry(corner).or_insert_with(|| {
+                let (at, _) = spot(corner).filter(|(_, is_seen)| *is_seen)?;
                 tint.colored_vertex(at, theme.selection.gamma_multiply(TINT));
-            }
-            tint.add_triangle(first, first + 1, first + 2);
+                u32::try_from(tint.vertices.len() - 1).ok()
+            })
+        });
+        if let [Some(a), Some(b), Some(c)] = numbers {
+            tint.add_triangle(a, b, c);
         }
     }
     painter.add(tint);

@@ -7,6 +7,9 @@ use crate::ui::editor::paint::Legend;
 use crate::ui::theme::{on_screen, rgb, theme_of};
 use crate::ui::{Control, Editor, Pane, Request, ShadingMode, Theme, close_button};
 
+/// Distance that labels may reach beyond their bar, points.
+const MARGIN: f32 = 6.0;
+
 /// True if the embedding pane has its own legend: the mesh pane is hidden or has another shading.
 pub(super) fn plane_has_own(editor: &Editor) -> bool {
     editor.layout.mesh_hidden() || editor.shading(Pane::Plane) != editor.shading(Pane::Mesh)
@@ -75,8 +78,11 @@ fn scale(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
         #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
         let x = bar.left() + bar.width() * tick.at as f32;
         painter.vline(x, bar.bottom()..=bar.bottom() + 3.0, Stroke::new(1.0, theme.weak_text));
-        let (at, font) = (Pos2::new(x, bar.bottom() + 4.0), FontId::proportional(10.0));
-        painter.text(at, Align2::CENTER_TOP, &tick.label, font, theme.weak_text);
+        let label = painter.layout_no_wrap(tick.label.clone(), FontId::proportional(10.0), theme.weak_text);
+        // Labels at the ends stay within the frame.
+        let [least, most] = [bar.left() - MARGIN, bar.right() + MARGIN - label.size().x];
+        let left = (x - label.size().x / 2.0).clamp(least.min(most), most.max(least));
+        painter.galley(Pos2::new(left, bar.bottom() + 4.0), label, theme.weak_text);
     }
 }
 

@@ -332,7 +332,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         }
     }
     let mesh = scene.elements();
-    elements::mark_selection(&painter, editor.selection.elements(), &mesh, theme, place);
+    elements::mark_selection(&painter, editor.selection.elements_on(scene), &mesh, theme, place);
     elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
     let vertex = editor.pointer.vertex().filter(|_| editor.pointer.element().is_none());
     if let Some((vertex, at)) = vertex.and_then(|vertex| Some((vertex, seen(vertex)?))) {

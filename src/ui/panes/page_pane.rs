@@ -7,12 +7,13 @@ use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos
 use glam::DVec2;
 
 use super::elements::{self, Plane, Surface};
+use super::pins::Emphasis;
 use super::region::{Region, draw_region};
-use super::{brush, legend, mesh_pane, plane_pane};
+use super::{brush, legend, mesh_pane, pins, plane_pane};
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PlaneFrame, Style};
 use crate::session::ChartPage;
 use crate::ui::editor::PageScene;
-use crate::ui::state::{GestureKind, PageGesture, PageRequest, Viewport, in_pane, size_of};
+use crate::ui::state::{GestureKind, PageGesture, PageRequest, Tool, Viewport, in_pane, size_of};
 use crate::ui::{Editor, Pane, Request, ShadingMode, Theme, five_digits, theme_of};
 use crate::view::{EdgeList, OrbitCamera, PlaneCamera};
 use freebound_core::geom::{Bounds, FIRST_UDIM_TILE, corner_of_tile};
@@ -20,6 +21,9 @@ use freebound_core::mesh::VertexId;
 
 /// Greatest number of edges of outlines that a kept-back move draws.
 const EDGES_SHOWN: usize = 20_000;
+
+/// Distance outside a pane up to which the mark of a pin reaches into it, points.
+const OUTSIDE: f32 = 12.0;
 
 /// Embedding pane with all charts.
 pub(super) fn plane_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -91,12 +95,26 @@ fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, scene: 
     PageRequest::Add(charts).into()
 }
 
-/// Selected vertices, and the element under the pointer.
+/// Pins of all charts. `spot` returns the position of a vertex on the screen, if it is seen.
+fn pin_marks(painter: &egui::Painter, editor: &Editor, theme: &Theme, spot: impl Fn(VertexId) -> Option<Pos2>) {
+    let seen = painter.clip_rect().expand(OUTSIDE);
+    for pin in editor.pins_on_page() {
+        let Some(at) = spot(pin.vertex).filter(|at| seen.contains(*at)) else { continue };
+        if pin.is_unmet {
+            pins::unmet_mark(painter, at, theme);
+        }
+        let is_selected = editor.plane.page.elements().vertices().contains(&pin.vertex);
+        pin.kind.mark(painter, at, theme, Emphasis::strong_if(is_selected));
+    }
+}
+
+/// Pins, selected vertices, and the element under the pointer.
 fn element_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, scene: &PageScene) {
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| Some(view.spot(scene.place_of(vertex)?));
     let (mesh, selected) = (scene.elements(), editor.plane.page.elements());
-    elements::mark_selection(&painter, selected, &mesh, theme, |vertex| Some((spot(vertex)?, true)));
+    pin_marks(&painter, editor, theme, spot);
+    elements::mark_selection(&painter, Some(selected), &mesh, theme, |vertex| Some((spot(vertex)?, true)));
     elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, spot);
 }
 
@@ -212,7 +230,7 @@ pub(super) fn mesh_ui(ui: &mut egui::Ui, response: &Response, editor: &mut Edito
     }
     if editor.kind_under_pointer().is_some() {
         elements::click(ui, response, editor, requests);
-    } else if response.clicked() && editor.plane.page.gesture().is_none() {
+    } else if response.clicked() && editor.plane.page.gesture().is_none() && editor.tools.tool() == Tool::Select {
         let adds = ui.input(|input| input.modifiers.shift);
         requests.push(PageRequest::Pick { chart: editor.plane.page.hovered(), adds }.into());
     }
@@ -239,7 +257,7 @@ fn within_mesh(view: Viewport<OrbitCamera>, region: &Region, editor: &Editor, sc
     PageRequest::Add(charts).into()
 }
 
-/// Selected vertices, and the element under the pointer, in the mesh pane.
+/// Pins, selected vertices, and the element under the pointer, in the mesh pane.
 fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &PageScene) {
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let (picker, eye) = (scene.surface_picker(), view.camera.eye());
@@ -248,8 +266,9 @@ fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Ed
         Some((at, picker.is_visible(vertex, eye)))
     };
     let mesh = scene.elements();
-    elements::mark_selection(&painter, editor.plane.page.elements(), &mesh, theme, place);
     let seen = |vertex| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
+    pin_marks(&painter, editor, theme, seen);
+    elements::mark_selection(&painter, Some(editor.plane.page.elements()), &mesh, theme, place);
     elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
 }
 

@@ -224,7 +224,8 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
     }
     let seen = |vertex: VertexId| Some(view.spot(plane.position_of(vertex)?));
     let mesh = plane.mesh.elements();
-    elements::mark_selection(&over, editor.selection.elements(), &mesh, theme, |vertex| Some((seen(vertex)?, true)));
+    let selected = editor.selection.elements_on(&plane.mesh);
+    elements::mark_selection(&over, selected, &mesh, theme, |vertex| Some((seen(vertex)?, true)));
     elements::mark_under_pointer(&over, editor.pointer.element(), &mesh, theme, seen);
     if editor.is_of_session(&plane.mesh) {
         for side in editor.tools.seam_hover.sides() {

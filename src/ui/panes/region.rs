@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use crate::ui::editor::RegionShape;
 use crate::ui::{Editor, Pane, theme_of};
+use crate::view::distance_to_segment;
 use freebound_core::geom::{Bounds, winding_number};
 
 /// Least distance between two points of a lasso or a stroke, points.
@@ -49,7 +50,9 @@ impl Region {
                 // Most points lie outside the box, and the curve is long.
                 bounds.contains(at) && winding_number(curve, at).is_some_and(|turns| turns != 0)
             }
-            Self::Stroke(points, around) => around.contains(at) && distance_to_line(points, at) <= STROKE_RADIUS,
+            Self::Stroke(points, around) => {
+                around.contains(at) && distance_to_line(points, at) <= f64::from(STROKE_RADIUS)
+            }
         }
     }
 
@@ -70,19 +73,16 @@ impl Region {
     }
 }
 
-fn in_plane(at: Pos2) -> DVec2 {
+/// Point of the window as a point of the plane.
+pub(super) fn in_plane(at: Pos2) -> DVec2 {
     DVec2::new(f64::from(at.x), f64::from(at.y))
 }
 
 /// Distance from a line through points, which may be a single one.
-fn distance_to_line(points: &[Pos2], at: Pos2) -> f32 {
-    let to_point = points.first().map_or(f32::INFINITY, |first| first.distance(at));
-    let to_segment = |ends: &[Pos2]| {
-        let (start, way) = (ends[0], ends[1] - ends[0]);
-        let share = ((at - start).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (start + share * way).distance(at)
-    };
-    points.windows(2).map(to_segment).fold(to_point, f32::min)
+fn distance_to_line(points: &[Pos2], at: Pos2) -> f64 {
+    let away = |ends: [Pos2; 2]| distance_to_segment(in_plane(at), ends.map(in_plane));
+    let to_first = points.first().map_or(f64::INFINITY, |&first| away([first; 2]));
+    points.windows(2).map(|ends| away([ends[0], ends[1]])).fold(to_first, f64::min)
 }
 
 /// Follows a region while it is drawn. Returns it at the end of the drag.

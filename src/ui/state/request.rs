@@ -150,6 +150,8 @@ pub enum Request {
     CutSelection,
     /// Closes the seams along the selected edges.
     JoinSelection,
+    /// Pins the selected vertices of the page or of the chart on the screen at their current positions.
+    FixSelection,
     /// Removes the selected pins.
     UnpinSelected,
     /// Moves the selected pins by pixels of the picture; y points up.

@@ -76,7 +76,9 @@ impl SelectBy {
     ];
 
     /// Reason why the way does not apply to elements, or to the charts of the page.
-    pub(in crate::ui) const fn reason(self, are_charts: bool) -> &'static str {
+    /// `kind` is the kind of the elements; `None` for charts.
+    pub(in crate::ui) const fn reason(self, kind: Option<ElementKind>) -> &'static str {
+        let are_charts = kind.is_none();
         match self {
             Self::Grow
             | Self::Shrink
@@ -90,9 +92,11 @@ impl SelectBy {
                 "Choose vertices, edges or faces first"
             }
             Self::Loops => "Select an edge, or two faces beside each other, first",
+            Self::Rings if matches!(kind, Some(ElementKind::Faces)) => "Choose vertices or edges first",
             Self::Rings => "Select an edge first",
             Self::Grow | Self::Shrink | Self::SharpEdges | Self::Connected => "Select something first",
             Self::All | Self::Invert | Self::Boundary => "Open a mesh first",
+            Self::Pins if matches!(kind, Some(ElementKind::Edges | ElementKind::Faces)) => "Choose vertices first",
             Self::Pins => "There are no pins to select",
             Self::Distorted if are_charts => "No chart has an energy above 4.1",
             Self::Distorted => "There is no map yet",

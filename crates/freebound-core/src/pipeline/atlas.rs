@@ -1,13 +1,13 @@
 //! Layout of several solved charts: placed beside each other and proved together.
 //!
 //! A chart with pins stays at its pins, and a locked chart at given coordinates. A chart with one pin takes the scale of
-//! the charts with more. All other charts are packed into the unit square, or into several squares (tiles), around those
-//! that stay. If a chart with pins reaches beyond the square, or those that stay leave no room, the others lie to their
-//! right. Packed charts share one density, in pixels per unit of length on the surface, times the
-//! size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless options forbid
-//! it. Rounding can fold a turned chart; then charts are packed again with exact quarter turns. Charts that started
-//! from the layout of their file may stay there instead ([`Arrangement::AsGiven`]). Charts with congruent surfaces may
-//! share a place ([`Stacking`]).
+//! the charts with more, unless the user shaped its map. All other charts are packed into the unit square, or into
+//! several squares (tiles), around those that stay. If a chart with pins reaches beyond the square, or those that stay
+//! leave no room, the others lie to their right. Packed charts share one density, in pixels per unit of length on the
+//! surface, times the size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless
+//! options forbid it. Rounding can fold a turned chart; then charts are packed again with exact quarter turns. Charts
+//! that started from the layout of their file may stay there instead ([`Arrangement::AsGiven`]). Charts with congruent
+//! surfaces may share a place ([`Stacking`]).
 
 use std::collections::BTreeSet;
 
@@ -158,7 +158,7 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
 }
 
 /// Coordinates of the charts that stay. A chart with one pin is scaled about it, so that its scale is that of the charts
-/// with more pins.
+/// with more pins. A map that the user shaped has a size of its own.
 fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embedding>> {
     let mut laid: Vec<Option<Embedding>> = charts.par_iter().map(|chart| chart.kept(options)).collect();
     let plane = DVec2::new(charts[0].outcome.problem.frame.aspect, 1.0);
@@ -170,7 +170,8 @@ fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embed
     if !(scale.is_finite() && scale > 0.0) {
         return laid;
     }
-    let with_one = charts.par_iter().zip(&mut laid).filter(|(chart, _)| pins(chart) == 1);
+    let is_sized = |chart: &SolvedChart<'_>| pins(chart) == 1 && chart.outcome.problem.shaped.is_none();
+    let with_one = charts.par_iter().zip(&mut laid).filter(|(chart, _)| is_sized(chart));
     with_one.for_each(|(chart, laid)| {
         let Some(coordinates) = laid else { return };
         let own = (chart.area_on(coordinates, plane) / chart.disk().area()).sqrt();

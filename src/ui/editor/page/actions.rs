@@ -58,7 +58,9 @@ impl Editor {
             PageRequest::Toggle if self.session.charts().is_none() => {}
             PageRequest::Toggle => self.show_page(!(self.shows_page() || self.awaits_page())),
             PageRequest::Pick { chart, adds } => {
-                self.select_charts_of_elements();
+                if chart.is_some() {
+                    self.select_charts_of_elements();
+                }
                 self.pick_chart(chart, adds);
             }
             PageRequest::Add(charts) => {

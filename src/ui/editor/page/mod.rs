@@ -6,9 +6,13 @@
 //! | `scene.rs` | data for drawing and picking all charts |
 //! | `actions.rs` | handling of requests to the page |
 //! | `gestures.rs` | gestures that move charts |
+//! | `numbered.rs` | numbers in the file of the elements |
+//! | `pins.rs` | pins of the charts |
 
 mod actions;
 mod gestures;
+mod numbered;
+mod pins;
 mod scene;
 
 use std::collections::BTreeSet;
@@ -17,6 +21,7 @@ use std::sync::Arc;
 use eframe::egui;
 use glam::DVec2;
 
+pub(super) use self::numbered::NumberedPage;
 pub(in crate::ui) use self::scene::PageScene;
 
 use self::scene::{PageKey, PageSpace};
@@ -24,11 +29,12 @@ use super::async_scene::AsyncScene;
 use super::checker::ALONG_PAGE;
 use super::colour_table::ShownColumn;
 use super::drawn_elements::DrawnElements;
+use super::file_elements::FileElements;
 use super::paint::Legend;
 use super::scene::MeshScene;
 use crate::session::{ChartMove, JobFailure, Session, Wake};
 use crate::ui::state::{PageGesture, Pane, PaneView, ShadingMode, Snap};
-use crate::view::{EdgeList, ElementSet, FacePaint, PlaneArrays, PlaneCamera};
+use crate::view::{EdgeList, ElementSet, FacePaint, PlaneArrays, PlaneCamera, Revision};
 use freebound_core::geom::Bounds;
 use freebound_core::mesh::VertexId;
 use freebound_core::problem::Embedding;
@@ -64,27 +70,43 @@ struct PageSelection {
     hovered: Outlined,
     /// Vertices, edges or faces, by their numbers on a scene.
     elements: DrawnElements,
+    /// Elements by their numbers in the file, from a cut until the user selects others.
+    of_file: Option<FileElements>,
     /// Last scene. The page has none for a while if a chart is solved again.
     scene: Option<Arc<PageScene>>,
 }
 
 impl PageSelection {
-    /// Keeps the charts that a scene has, and the elements if the mesh is cut as before. Elements of steps with other
-    /// new vertices become their vertices.
+    /// Keeps the charts that a scene has, and the elements. If the mesh is cut in another way, the elements are found by
+    /// their numbers in the file. Elements of steps with other new vertices become their vertices.
     fn keep_on(&mut self, scene: &Arc<PageScene>) {
         let before = self.scene.replace(Arc::clone(scene));
         let count = scene.spans.len();
         for outlined in [&mut self.charts, &mut self.hovered] {
             outlined.charts.retain(|&chart| chart < count);
         }
-        let before = before.filter(|before| before.is_cut_like(scene));
-        if before.as_ref().is_some_and(|before| before.has_numbers_of(scene)) {
-            return;
+        let Some(before) = before.filter(|before| before.is_of_file_of(scene)) else {
+            return self.select(ElementSet::default(), None);
+        };
+        if !before.is_cut_like(scene) {
+            let of_file = self.of_file.take();
+            let of_file =
+                of_file.unwrap_or_else(|| FileElements::new(self.elements.get(), &NumberedPage::new(&before)));
+            self.elements.set(of_file.on(&NumberedPage::new(scene)), Some(scene.mesh.revision));
+            self.of_file = Some(of_file);
+        } else if before.has_numbers_of(scene) {
+            self.elements.stay_on(scene.mesh.revision);
+        } else {
+            let places = self.elements.get().vertices().iter().filter_map(|&vertex| before.on_chart(vertex));
+            let kept: Vec<VertexId> = places.filter_map(|(chart, vertex)| scene.of_chart(chart, vertex)).collect();
+            self.elements.set(ElementSet::of_vertices(kept), None);
         }
-        let place = |vertex: &VertexId| before.as_ref()?.on_chart(*vertex);
-        let places = self.elements.get().vertices().iter().filter_map(place);
-        let kept: Vec<VertexId> = places.filter_map(|(chart, vertex)| scene.of_chart(chart, vertex)).collect();
-        self.elements.set(ElementSet::of_vertices(kept));
+    }
+
+    /// Selects exactly these elements, which were found on the mesh with these arrays.
+    fn select(&mut self, elements: ElementSet, found_on: Option<Revision>) {
+        self.elements.set(elements, found_on);
+        self.of_file = None;
     }
 }
 
@@ -303,7 +325,7 @@ impl PageView {
     fn take(&mut self, scene: PageScene) {
         let scene = Arc::new(scene);
         self.selection.keep_on(&scene);
-        let bounds = scene.page_box().union(scene.plane.bounds);
+        let bounds = scene.whole();
         self.scene = Some(scene);
         self.moved = None;
         if self.pane.camera().is_none() {
@@ -373,7 +395,8 @@ impl PageView {
 
     /// Selects exactly these elements.
     pub(super) fn select_elements(&mut self, elements: ElementSet) {
-        self.selection.elements.set(elements);
+        let found_on = self.scene.as_ref().map(|scene| scene.mesh.revision);
+        self.selection.select(elements, found_on);
     }
 
     /// Sets a camera that the window chose.
@@ -385,7 +408,7 @@ impl PageView {
     /// Frames the selected charts or elements, or the whole page if nothing is selected.
     pub(super) fn frame_selection(&mut self) {
         let Some(scene) = &self.scene else { return };
-        let all = scene.page_box().union(scene.plane.bounds);
+        let all = scene.whole();
         let vertices = self.elements().vertices();
         let bounds = if !self.selected().is_empty() {
             Some(widened(scene.bounds_of(self.selected().iter().copied())))
@@ -409,7 +432,7 @@ impl PageView {
             && was_framed
             && let (Some(scene), Some(mut camera)) = (&self.scene, self.pane.camera())
         {
-            camera.frame(scene.page_box().union(scene.plane.bounds), self.pane.size());
+            camera.frame(scene.whole(), self.pane.size());
             self.set_framed(camera);
         }
     }

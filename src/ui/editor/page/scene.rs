@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::session::{ChartPage, Model, PageChart};
-use crate::ui::editor::colour_table::{ShownColumn, vertices_in_file};
+use crate::ui::editor::colour_table::ShownColumn;
+use crate::ui::editor::in_file::vertices_in_file;
 use crate::ui::editor::paint::{Legend, column_paint};
 use crate::ui::state::ShadingMode;
 use crate::view::{
@@ -117,6 +118,11 @@ impl PageScene {
         Bounds { low: DVec2::ZERO, high: DVec2::new(self.aspect, 1.0) }
     }
 
+    /// Bounds of the page and of all charts in the plane.
+    pub(super) fn whole(&self) -> Bounds {
+        self.page_box().union(self.plane.bounds)
+    }
+
     /// Bounds of charts in the plane.
     pub(in crate::ui) fn bounds_of(&self, charts: impl IntoIterator<Item = usize>) -> Bounds {
         let there = charts.into_iter().filter_map(|chart| self.bounds.get(chart));
@@ -155,12 +161,26 @@ impl PageScene {
         Some(VertexId::from_index(span.vertices.start + vertex.index()))
     }
 
+    /// Ends of the edge that a new vertex splits, on the page. `None` for a vertex that the file has.
+    pub(super) fn split_edge(&self, vertex: VertexId) -> Option<[VertexId; 2]> {
+        let (chart, own) = self.on_chart(vertex)?;
+        let refinement = self.charts[chart].outcome.step.candidate.refinement.as_ref()?;
+        let new = refinement.new_vertices().get(own.index().checked_sub(refinement.old_vertex_count())?)?;
+        let [a, b] = new.edge.map(|end| self.of_chart(chart, end));
+        Some([a?, b?])
+    }
+
+    /// Chart of a triangle.
+    pub(in crate::ui) fn chart_of_face(&self, face: FaceId) -> Option<usize> {
+        let chart = self.spans.partition_point(|span| span.faces.end <= face.index());
+        (chart < self.spans.len()).then_some(chart)
+    }
+
     /// Chart of a triangle, and the number in files of its face.
     pub(in crate::ui) fn face_number(&self, face: FaceId) -> Option<(usize, FaceId)> {
-        let chart = self.spans.partition_point(|span| span.faces.end <= face.index());
-        let (span, on_page) = (self.spans.get(chart)?, self.charts.get(chart)?);
-        let local = FaceId::from_index(face.index() - span.faces.start);
-        Some((chart, FaceId::new(on_page.mesh().mesh().polygon(local))))
+        let chart = self.chart_of_face(face)?;
+        let local = FaceId::from_index(face.index() - self.spans[chart].faces.start);
+        Some((chart, FaceId::new(self.charts[chart].mesh().mesh().polygon(local))))
     }
 
     /// Model of a chart.
@@ -181,6 +201,12 @@ impl PageScene {
     /// Positions of vertices in space.
     pub(in crate::ui) fn positions_of<'a>(&'a self, vertices: impl IntoIterator<Item = &'a VertexId>) -> Vec<DVec3> {
         vertices.into_iter().filter_map(|vertex| self.picker.positions().get(vertex.index()).copied()).collect()
+    }
+
+    /// True if both scenes are of one file.
+    pub(super) fn is_of_file_of(&self, other: &Self) -> bool {
+        let source = |scene: &Self| Some(Arc::clone(&scene.charts.first()?.model.source));
+        source(self).zip(source(other)).is_some_and(|(own, others)| Arc::ptr_eq(&own, &others))
     }
 
     /// True if the mesh is cut into the charts of another scene.
@@ -280,8 +306,7 @@ impl PageScene {
 
     /// Chart that a ray meets first.
     pub(in crate::ui) fn chart_hit(&self, ray: Ray) -> Option<usize> {
-        let face = self.picker.hit(ray)?.face.index();
-        self.spans.iter().position(|span| span.faces.contains(&face))
+        self.picker.hit(ray).and_then(|hit| self.chart_of_face(hit.face))
     }
 
     /// Arrays of the plane with charts at other texture coordinates.
@@ -306,10 +331,9 @@ impl PageScene {
         (paint, Some(legend))
     }
 
-    /// Symmetric Dirichlet energy of each triangle.
-    pub(in crate::ui) fn distortion(&self) -> Vec<f64> {
-        let faces = self.charts.iter().flat_map(|chart| &chart.outcome.distortion.faces);
-        faces.map(FaceDistortion::symmetric_dirichlet).collect()
+    /// Distortion of the triangles of each chart.
+    pub(in crate::ui) fn distortion(&self) -> Vec<&[FaceDistortion]> {
+        self.charts.iter().map(|chart| chart.outcome.distortion.faces.as_slice()).collect()
     }
 
     /// Flipped faces of all charts.
