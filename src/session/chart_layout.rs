@@ -81,5 +81,5 @@ fn place_in<'a>(
     number: usize,
 ) -> Option<&'a Arc<Embedding>> {
     let ChartPlace(place) = places.get(&charts.first_face(number))?;
-    (place.len() == charts.chart(number).vertex_of.len()).then_some(place)
+    (place.len() == charts.vertex_count(number)).then_some(place)
 }

@@ -24,6 +24,10 @@ impl Session {
             return None;
         }
         let wanted = self.document.problem();
+        if wanted.shaped_map_meets_pins() {
+            // The run begins with that map, as the runs of charts that are not shown do.
+            return None;
+        }
         let newest = || {
             let newest = self.solving.newest().filter(|newest| wanted.continues_from(&newest.problem))?;
             Screen::of(newest, self.disk()?.vertex_count()).filter(|screen| screen.is_planar)

@@ -18,12 +18,21 @@ enum Hindrance {
     Stacked,
     /// The chart lies mirrored on the page.
     Mirrored,
+    /// The map of the chart has flipped faces or crossings.
+    Folded,
+    /// The page has another shape than the plane of the maps: maps that are pinned there would be stretched.
+    OtherShape,
 }
 
 impl Hindrance {
-    fn of(chart: &PageChart) -> Option<Self> {
+    fn of(chart: &PageChart, aspect: f64) -> Option<Self> {
+        let verdict = &chart.outcome.step.verdict;
         if chart.stacked.is_some() {
             return Some(Self::Stacked);
+        } else if !verdict.planar || verdict.mirrored {
+            return Some(Self::Folded);
+        } else if aspect.to_bits() != chart.outcome.problem.frame.aspect.to_bits() {
+            return Some(Self::OtherShape);
         }
         let at = |vertex: VertexId| chart.coordinates[vertex];
         let corners = chart.mesh().mesh().real_triangles().iter().map(|corners| corners.map(at));
@@ -36,6 +45,12 @@ impl Hindrance {
         match self {
             Self::Stacked => ["shares the place of another chart", "unstack it first"],
             Self::Mirrored => ["lies mirrored on the page", "mirror it back first"],
+            Self::Folded => {
+                ["has a map that is not planar", "repair it first, or pin its vertices with the chart alone"]
+            }
+            Self::OtherShape => {
+                ["lies on a page that is not square", "open a picture of its shape first, or make the page square"]
+            }
         }
     }
 }
@@ -60,7 +75,7 @@ impl Session {
         let (mut commands, mut charts, mut held_back) = (vec![Command::SetLayout(Box::new(layout))], Vec::new(), None);
         for (chart, vertices) in vertices {
             let Some(edits) = self.fixed_on_page(&page, *chart, vertices) else { continue };
-            if let Some(hindrance) = Hindrance::of(&page.charts[*chart]) {
+            if let Some(hindrance) = Hindrance::of(&page.charts[*chart], page.aspect) {
                 held_back = held_back.or(Some((*chart, hindrance)));
                 continue;
             }
@@ -127,7 +142,7 @@ impl Session {
     /// Edits of a chart with more vertices pinned where they lie on the page. `None` if none is added.
     ///
     /// The chart keeps the map of the page as one that the user shaped, so that pins do not change it. A map with new
-    /// vertices is solved again.
+    /// vertices, or with pins that miss their targets, is solved again.
     fn fixed_on_page(&self, page: &ChartPage, chart: usize, vertices: &[VertexId]) -> Option<ChartEdits> {
         let on_page = page.charts.get(chart)?;
         let mut edits = self.document.edits_of(chart, on_page.model.prepared.chart.as_ref()?);
@@ -140,9 +155,15 @@ impl Session {
         if added.is_empty() {
             return None;
         }
-        let in_plane = self.document.problem_with(ChartEdits::default()).in_plane(&on_page.coordinates);
         edits.targets.extend(added);
-        if on_page.outcome.step.candidate.refinement.is_none() {
+        let problem = self.document.problem_with(edits.clone());
+        let mut in_plane = problem.in_plane(&on_page.coordinates);
+        // The page has v up; turning v rounds.
+        for (vertex, pin) in problem.settings.held(&problem.pins()).iter().filter(|(_, pin)| pin.kind.is_hard()) {
+            in_plane[*vertex] = pin.target;
+        }
+        let step = &on_page.outcome.step;
+        if step.candidate.refinement.is_none() && step.unmet().is_empty() {
             (edits.shaped, edits.relaxed) = (Some(ShapedMap(Arc::new(in_plane))), 0);
         }
         Some(edits)

@@ -583,6 +583,54 @@ fn the_page_agrees_with_the_layout_whatever_is_pressed() {
     println!("{actions} actions, {} rests with overlaps, slowest frame {slowest:?}", walk.overlaps);
 }
 
+/// Sheets beside each other, as parts of one mesh.
+fn many_sheets(count: usize) -> TriMesh {
+    let mut whole = TriMesh::default();
+    for part in 0..count {
+        let sheet = shaped(3, 3, |x, y| DVec3::new(x, y, 0.1 * x * y));
+        let (first, by) = (whole.positions.len(), DVec3::new(4.0 * (part % 25) as f64, 4.0 * (part / 25) as f64, 0.0));
+        whole.positions.extend(sheet.positions.iter().map(|&at| at + by));
+        let moved = |vertex: VertexId| VertexId::from_index(first + vertex.index());
+        whole.triangles.extend(sheet.triangles.iter().map(|corners| corners.map(moved)));
+    }
+    whole
+}
+
+#[test]
+fn five_hundred_parts_are_selected_framed_moved_pinned_and_packed() {
+    const PARTS: usize = 500;
+    let mut window = Window::with_mesh("parts.obj", &many_sheets(PARTS));
+    until_proved(&mut window);
+    let mut slowest = Vec::new();
+    let mut act = |window: &mut Window, name: &str, act: &dyn Fn(&mut Window)| {
+        window.slowest = Duration::ZERO;
+        act(window);
+        until_proved(window);
+        slowest.push(format!("{name}: {:?}", window.slowest));
+    };
+    act(&mut window, "select all", &|window| window.press(Modifiers::COMMAND, Key::A));
+    assert_eq!(selected(&window).len(), PARTS);
+    act(&mut window, "frame", &|window| window.key(Key::F));
+    act(&mut window, "select one", &|window| window.click_at(middle(window, 77), Modifiers::NONE));
+    assert_eq!(selected(&window), [77]);
+    let before = bounds(&window, 77);
+    act(&mut window, "move by a pixel", &|window| window.key(Key::ArrowLeft));
+    assert_ne!(bounds(&window, 77).low, before.low);
+    act(&mut window, "select faces", &|window| {
+        window.press(Modifiers::COMMAND, Key::Num3);
+        window.press(Modifiers::COMMAND, Key::A);
+    });
+    assert_eq!(window.editor().plane.page.elements().faces().len(), 18 * PARTS);
+    act(&mut window, "pin", &|window| window.editor_mut().handle(Request::FixSelection));
+    let pins = |window: &Window| window.editor().pins_on_page().len();
+    assert_eq!(pins(&window), 16 * PARTS);
+    act(&mut window, "free", &|window| window.key(Key::Delete));
+    assert_eq!(pins(&window), 0);
+    act(&mut window, "pack", &|window| window.editor_mut().handle(PageRequest::PackAll.into()));
+    assert!(!window.editor().session.has_placed_charts() && window.is_proved());
+    println!("slowest frames: {}", slowest.join(", "));
+}
+
 #[test]
 fn a_moved_chart_is_unsaved_work_until_the_move_is_undone() {
     let mut window = with_sheets();

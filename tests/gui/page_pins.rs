@@ -2,13 +2,14 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers};
-use freebound::session::{Action, LockState};
-use freebound::ui::{PageRequest, PinMark, Request};
-use freebound_core::geom::VAxis;
+use freebound::session::{Action, LockState, movement_about};
+use freebound::ui::{PageRequest, PinMark, Request, Tab};
+use freebound_core::geom::{PackingOptions, VAxis};
 use freebound_core::mesh::VertexId;
+use freebound_core::pipeline::Problem;
 use freebound_core::problem::{Embedding, PinKind};
 use freebound_testkit::assert_message;
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 
 use crate::charts::with_sheets;
 use crate::harness::Window;
@@ -148,4 +149,91 @@ fn a_chart_that_lies_mirrored_keeps_its_vertices_free_and_says_why() {
     assert_eq!(coordinates(&window), before);
     let message = window.editor().session.messages().last().expect("it is said");
     assert_message("page-pins-mirrored", &format!("{}\n{:?}", message.text, message.remedy));
+}
+
+#[test]
+fn further_pins_keep_a_pinned_chart_at_its_place_with_v_down() {
+    let mut window = with_sheets();
+    window.editor_mut().session.handle(Action::SetVAxis(VAxis::Down));
+    until_proved(&mut window);
+    for chart in [1, 2] {
+        fix(&mut window, &[(chart, 0), (chart, 6)]);
+    }
+    let before = coordinates(&window);
+    for chart in [1, 2] {
+        fix(&mut window, &[(chart, 20), (chart, 24)]);
+    }
+    for (before, after) in before.iter().zip(coordinates(&window)) {
+        assert!(moved(before, &after) < ROUNDING);
+    }
+    let page = window.editor().session.page().expect("a page");
+    let problems = page.charts.iter().map(|chart| &chart.outcome.problem).filter(|problem| !problem.targets.is_empty());
+    assert!(problems.clone().count() == 2 && problems.into_iter().all(Problem::shaped_map_meets_pins));
+}
+
+#[test]
+fn freeing_one_of_several_pins_changes_no_map() {
+    for chart in [1, 2] {
+        let mut window = with_sheets();
+        fix(&mut window, &[(chart, 0), (chart, 6), (chart, 20), (chart, 24)]);
+        let before = coordinates(&window);
+        select(&mut window, &[(chart, 20)]);
+        window.key(Key::Delete);
+        until_proved(&mut window);
+        assert_eq!(pinned(&window)[chart], [0, 6, 24]);
+        for (before, after) in before.iter().zip(coordinates(&window)) {
+            assert!(moved(before, &after) < ROUNDING);
+        }
+    }
+}
+
+#[test]
+fn a_chart_with_one_pin_keeps_its_size_and_its_turn_in_a_saved_project() {
+    let mut window = with_sheets();
+    let at = middle(&window, 2);
+    window.click_at(at, Modifiers::NONE);
+    let turned = DAffine2::from_scale_angle_translation(DVec2::splat(0.5), 0.3, DVec2::ZERO);
+    let by = movement_about(window.editor().session.page().expect("a page").bounds_of(2).middle(), turned);
+    window.editor_mut().session.handle(Action::MoveCharts { moves: vec![(2, by)], insists: true });
+    window.editor_mut().session.handle(Action::EndMove);
+    until_proved(&mut window);
+    fix(&mut window, &[(0, 0), (0, 4), (2, 5)]);
+    let before = coordinates(&window);
+    let project = window.path("pinned.freebound");
+    window.editor_mut().session.handle(Action::SaveProject(project.clone()));
+    window.settle();
+    let mut again = Window::with_file(&project);
+    until_proved(&mut again);
+    assert_eq!(pinned(&again), pinned(&window));
+    for (before, after) in before.iter().zip(coordinates(&again)) {
+        assert!(moved(before, &after) < 1e-9, "{}", moved(before, &after));
+    }
+}
+
+#[test]
+fn vertices_on_a_page_of_another_shape_than_their_maps_are_not_pinned() {
+    let mut window = with_sheets();
+    let packing = PackingOptions { picture: [2048, 1024], ..window.editor().session.packing() };
+    window.editor_mut().session.handle(Action::SetPacking(packing));
+    until_proved(&mut window);
+    window.key(Key::F);
+    let edits = depth(&window);
+    select(&mut window, &[(0, 0), (2, 5)]);
+    window.editor_mut().handle(Request::FixSelection);
+    until_proved(&mut window);
+    assert_eq!((pinned(&window), depth(&window)), (vec![vec![]; 3], edits));
+    let message = window.editor().session.messages().last().expect("it is said");
+    assert_message("page-pins-other-shape", &format!("{}\n{:?}", message.text, message.remedy));
+}
+
+#[test]
+fn the_pins_tab_tells_of_pins_on_other_charts_and_frees_all_of_the_page() {
+    let mut window = with_sheets();
+    fix(&mut window, &[(0, 0), (0, 4), (1, 3)]);
+    window.editor_mut().handle(Request::ShowTab(Tab::Pins));
+    window.settle();
+    assert_message("page-pins-tab", &window.text_with("Pins of chart"));
+    window.click("Free all");
+    until_proved(&mut window);
+    assert_eq!(pinned(&window), vec![Vec::<usize>::new(); 3]);
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::ThemePreference;
 
-use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, when};
+use super::{ALWAYS, Mark, MenuBuilder, MenuCommand, unless, when};
 use crate::examples::Example;
 use crate::session::{Action, LockState};
 use crate::ui::state::{
@@ -130,17 +130,10 @@ fn edit_menu(menu: &mut MenuBuilder<'_>) {
         page_menu(menu);
     }
     menu.separator();
-    let fixable = when(editor.can_fix_selection(), "Select vertices, edges or faces first");
-    menu.item(fixable, "Fix the selection", Request::FixSelection);
-    let has_pins = when(editor.has_selected_pins(), "No pin is selected");
-    menu.item(has_pins, "Free the selected pins", Request::UnpinSelected);
+    menu.item(unless(editor.fix_hindrance()), "Fix the selection", Request::FixSelection);
+    menu.item(unless(editor.unpin_hindrance()), "Free the selected pins", Request::UnpinSelected);
+    menu.item(unless(editor.unpin_all_hindrance()), "Free all pins", Request::UnpinAll);
     let pin_count = session.document().targets.len();
-    if editor.shows_page() {
-        let all = editor.pins_by_chart();
-        menu.item(when(!all.is_empty(), NO_PINS), "Free all pins", Action::UnpinOnPage(all));
-    } else {
-        menu.item(when(pin_count > 0, NO_PINS), "Free all pins", Action::UnpinAll);
-    }
     menu.separator();
     menu.item(when(pin_count > 0, NO_PINS), "Mirror the targets", Action::MirrorTargets);
     menu.item(when(pin_count > 1, "Place at least two pins first"), "Fit the targets to the mesh", Action::FitTargets);

@@ -27,6 +27,11 @@ pub(in crate::ui) const fn when(is_open: bool, reason: &'static str) -> Gate {
     if is_open { Ok(()) } else { Err(reason) }
 }
 
+/// Gate that is open unless there is a reason.
+pub(in crate::ui) fn unless(reason: Option<&'static str>) -> Gate {
+    reason.map_or(ALWAYS, Err)
+}
+
 /// Mark of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Mark {

@@ -211,8 +211,8 @@ impl Editor {
             0 if is_more => {}
             0 => self.session.tell_no_edge("nothing to cut: select edges between two faces, or some of the faces"),
             count => {
-                let edges = if count == 1 { "1 edge lies" } else { &format!("{count} edges lie") };
-                self.session.tell_no_edge(&format!("{edges} inside faces of the file, so no seam can follow there"));
+                let edges = if count == 1 { "1 edge has" } else { &format!("{count} edges have") };
+                self.session.tell_no_edge(&format!("{edges} no edge in the file: new or welded vertices lie there"));
             }
         }
     }
@@ -261,7 +261,7 @@ impl Editor {
 #[derive(Debug, Default)]
 struct EdgesInFile {
     in_file: BTreeSet<Edge>,
-    /// Number of edges that are none of the file: they lie inside a face with new vertices.
+    /// Number of edges that are none of the file: they lie inside a face with new vertices, or at welded vertices.
     not_in_file: usize,
 }
 

@@ -91,6 +91,7 @@ impl Editor {
             Request::ToggleSharp => self.pane_shading.toggle_sharp(),
             Request::FixSelection => self.fix_selection(),
             Request::UnpinSelected => self.unpin_selected(),
+            Request::UnpinAll => self.unpin_all(),
             Request::Escape => self.escape(),
             Request::Page(request) => self.handle_page(request),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),

@@ -94,6 +94,10 @@ impl Selection {
         if let Some(of_file) = &self.of_file {
             self.elements.set(of_file.on(mesh), Some(mesh.scene.arrays.revision));
         }
+        if !mesh.awaited.is_empty() {
+            // The elements of the file are those of all copies of their vertices, not of the awaited ones alone.
+            self.of_file = None;
+        }
         self.is_framed_later && !self.vertices().is_empty()
     }
 

@@ -49,8 +49,14 @@ impl Group {
             | Request::Escape
             | Request::AskGoTo
             | Request::StepDefect(_)
+            | Request::SetSelectionKind(_)
+            | Request::ToggleThrough
             | Request::SelectBy(_) => Self::Select,
-            Request::SetTool(Tool::Seam) | Request::EndSeam | Request::Do(Action::Unwrap(_)) => Self::Seams,
+            Request::SetTool(Tool::Seam)
+            | Request::EndSeam
+            | Request::CutSelection
+            | Request::JoinSelection
+            | Request::Do(Action::Unwrap(_)) => Self::Seams,
             Request::SetTool(Tool::Brush) | Request::ResizeBrush { .. } => Self::Brushes,
             Request::SetTool(_) | Request::FixSelection | Request::UnpinSelected => Self::Pins,
             Request::Page(_) | Request::StepChart(_) | Request::ToggleLock => Self::Charts,

@@ -46,6 +46,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
         );
         return;
     }
+    of_other_charts(ui, editor);
     if document.targets.is_empty() {
         no_pins(ui, editor.shows_page());
         read_more(ui, "How to place pins", "window.md#pins", requests);
@@ -62,6 +63,18 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
         ui.separator();
         picture_panel::picture_ui(ui, editor, requests);
     });
+}
+
+/// On the page: the chart whose pins the table lists, and the number of pins of the others.
+fn of_other_charts(ui: &mut egui::Ui, editor: &Editor) {
+    let Some(shown) = editor.session.chart_on_screen().filter(|_| editor.shows_page()) else { return };
+    let others = editor.pins_by_chart().into_iter().filter(|(chart, _)| *chart != shown);
+    let counts: Vec<usize> = others.map(|(_, pins)| pins.len()).collect();
+    if !counts.is_empty() {
+        let pins = counts.iter().sum();
+        let words = format!("{} on {}", counted(pins, "pin", "pins"), counted(counts.len(), "chart", "charts"));
+        ui.weak(format!("Pins of chart {shown}. There are {words} beside it: show a chart alone to edit them."));
+    }
 }
 
 fn no_pins(ui: &mut egui::Ui, is_on_page: bool) {
@@ -432,7 +445,8 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
                 Request::Ask(FileDialogKind::ExportConstraints),
             )
             .when(count > 0),
-            Offer::new("Free all", "Free all pins; undo restores them", Action::UnpinAll).when(count > 0),
+            Offer::new("Free all", "Free all pins; undo restores them", Request::UnpinAll)
+                .when(editor.unpin_all_hindrance().is_none()),
         ];
         for offer in offers {
             offer.show(ui, requests);

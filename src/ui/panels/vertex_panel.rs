@@ -31,6 +31,10 @@ fn name_row(ui: &mut egui::Ui, scene: &MeshScene, vertex: VertexId, requests: &m
 }
 
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    if editor.shows_page() && !editor.plane.page.elements().is_empty() {
+        ui.label("The data of a vertex shows with its chart alone: press Enter.");
+        return;
+    }
     let Some(&vertex) = editor.selection.vertices().first() else {
         return no_vertex(ui);
     };

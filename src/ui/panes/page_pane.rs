@@ -22,6 +22,9 @@ use freebound_core::mesh::VertexId;
 /// Greatest number of edges of outlines that a kept-back move draws.
 const EDGES_SHOWN: usize = 20_000;
 
+/// Greatest number of pins with marks. Each is tested for what hides it.
+const PINS_SHOWN: usize = 2000;
+
 /// Distance outside a pane up to which the mark of a pin reaches into it, points.
 const OUTSIDE: f32 = 12.0;
 
@@ -95,11 +98,20 @@ fn within(view: Viewport<PlaneCamera>, region: &Region, editor: &Editor, scene: 
     PageRequest::Add(charts).into()
 }
 
-/// Pins of all charts. `spot` returns the position of a vertex on the screen, if it is seen.
-fn pin_marks(painter: &egui::Painter, editor: &Editor, theme: &Theme, spot: impl Fn(VertexId) -> Option<Pos2>) {
-    let seen = painter.clip_rect().expand(OUTSIDE);
-    for pin in editor.pins_on_page() {
-        let Some(at) = spot(pin.vertex).filter(|at| seen.contains(*at)) else { continue };
+/// Pins of all charts. `spot` returns the position of a vertex on the screen, and `is_seen` tells if the mesh hides it.
+fn pin_marks(
+    painter: &egui::Painter,
+    editor: &Editor,
+    theme: &Theme,
+    spot: impl Fn(VertexId) -> Option<Pos2>,
+    is_seen: impl Fn(VertexId) -> bool,
+) {
+    let inside = painter.clip_rect().expand(OUTSIDE);
+    let pins = editor.pins_on_page().into_iter().take(PINS_SHOWN);
+    for (pin, at) in pins.filter_map(|pin| Some((pin, spot(pin.vertex).filter(|at| inside.contains(*at))?))) {
+        if !is_seen(pin.vertex) {
+            continue;
+        }
         if pin.is_unmet {
             pins::unmet_mark(painter, at, theme);
         }
@@ -113,8 +125,8 @@ fn element_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, sc
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| Some(view.spot(scene.place_of(vertex)?));
     let (mesh, selected) = (scene.elements(), editor.plane.page.elements());
-    pin_marks(&painter, editor, theme, spot);
     elements::mark_selection(&painter, Some(selected), &mesh, theme, |vertex| Some((spot(vertex)?, true)));
+    pin_marks(&painter, editor, theme, spot, |_| true);
     elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, spot);
 }
 
@@ -267,8 +279,9 @@ fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Ed
     };
     let mesh = scene.elements();
     let seen = |vertex| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
-    pin_marks(&painter, editor, theme, seen);
     elements::mark_selection(&painter, Some(editor.plane.page.elements()), &mesh, theme, place);
+    let spot = |vertex: VertexId| view.spot(*picker.positions().get(vertex.index())?);
+    pin_marks(&painter, editor, theme, spot, |vertex| picker.is_visible(vertex, eye));
     elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
 }
 

@@ -210,7 +210,7 @@ pub(in crate::ui) const BAKED: [&str; 2] =
     ["Picture for this layout…", "PNG: the picture of the file's own layout, drawn anew for the layout on the screen"];
 
 /// Reason why no picture can be drawn for the layout.
-pub(in crate::ui) const NO_MAP: &str = "There is nothing to export yet: open a mesh";
+pub(in crate::ui) const NO_MAP: &str = "There is nothing to export yet: open a mesh, or wait for its map";
 
 /// Reason why no picture can be drawn for the layout.
 pub(in crate::ui) const NO_LAYOUT_PICTURE: &str = "Open a mesh with texture coordinates and its picture first";

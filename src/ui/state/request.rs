@@ -154,6 +154,8 @@ pub enum Request {
     FixSelection,
     /// Removes the selected pins.
     UnpinSelected,
+    /// Removes all pins of the page, or of the chart on the screen.
+    UnpinAll,
     /// Moves the selected pins by pixels of the picture; y points up.
     Nudge(DVec2),
     /// Ends a nudge: its keys are released.

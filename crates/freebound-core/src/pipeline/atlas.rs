@@ -1,7 +1,7 @@
 //! Layout of several solved charts: placed beside each other and proved together.
 //!
 //! A chart with pins stays at its pins, and a locked chart at given coordinates. A chart with one pin takes the scale of
-//! the charts with more, unless the user shaped its map. All other charts are packed into the unit square, or into
+//! the charts with more, or its size and turn at given coordinates. All other charts are packed into the unit square, or into
 //! several squares (tiles), around those that stay. If a chart with pins reaches beyond the square, or those that stay
 //! leave no room, the others lie to their right. Packed charts share one density, in pixels per unit of length on the
 //! surface, times the size that the user gives to each chart. Charts are packed by their shapes, in any rotation unless
@@ -58,7 +58,8 @@ pub struct SolvedChart<'a> {
     /// Tile in which the chart must be packed, below the number of tiles of the options. Default: any.
     pub tile: Option<u32>,
     /// Texture coordinates of each vertex of the chart's mesh, v up. The chart stays there, up to the nearest
-    /// similarity, and the others are packed around it. Pins have precedence. Default: the chart is packed.
+    /// similarity, and the others are packed around it. Pins have precedence; a single pin moves the chart there.
+    /// Default: the chart is packed.
     pub locked: Option<&'a Embedding>,
     /// Number of the chart whose place this chart shares, whatever [`PackingOptions::stack`] is. Both surfaces have to
     /// be congruent or mirror images, their maps planar and without new vertices. Pins have precedence. Default: a
@@ -158,11 +159,17 @@ fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Atlas<'a> 
 }
 
 /// Coordinates of the charts that stay. A chart with one pin is scaled about it, so that its scale is that of the charts
-/// with more pins. A map that the user shaped has a size of its own.
+/// with more pins. One with given coordinates keeps the size and turn that it has there.
 fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embedding>> {
     let mut laid: Vec<Option<Embedding>> = charts.par_iter().map(|chart| chart.kept(options)).collect();
     let plane = DVec2::new(charts[0].outcome.problem.frame.aspect, 1.0);
     let pins = |chart: &SolvedChart<'_>| chart.outcome.targets_in_use().take(2).count();
+    let with_one = charts.par_iter().zip(&mut laid).filter(|(chart, _)| pins(chart) == 1);
+    with_one.for_each(|(chart, laid)| {
+        if let Some(there) = chart.at_pin_over_place(options) {
+            *laid = Some(there);
+        }
+    });
     let areas = charts.iter().zip(&laid).filter(|(chart, _)| pins(chart) > 1);
     let areas = areas.filter_map(|(chart, laid)| Some([chart.area_on(laid.as_ref()?, plane), chart.disk().area()]));
     let [in_plane, on_surface] = areas.fold([0.0; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
@@ -170,7 +177,7 @@ fn kept(charts: &[SolvedChart<'_>], options: PackingOptions) -> Vec<Option<Embed
     if !(scale.is_finite() && scale > 0.0) {
         return laid;
     }
-    let is_sized = |chart: &SolvedChart<'_>| pins(chart) == 1 && chart.outcome.problem.shaped.is_none();
+    let is_sized = |chart: &SolvedChart<'_>| pins(chart) == 1 && chart.locked.is_none();
     let with_one = charts.par_iter().zip(&mut laid).filter(|(chart, _)| is_sized(chart));
     with_one.for_each(|(chart, laid)| {
         let Some(coordinates) = laid else { return };
@@ -450,6 +457,19 @@ impl<'a> SolvedChart<'a> {
     /// Coordinates of a chart that stays: on its pins, or where it is locked. `None` if the chart is packed.
     fn kept(&self, options: PackingOptions) -> Option<Embedding> {
         if self.is_held() { Some(self.in_place()) } else { self.locked.map(|given| self.laid_over(given, options)) }
+    }
+
+    /// Coordinates of a chart with one pin by the size and turn that it has at given ones, with its pin at its target.
+    /// `None` without given coordinates, and if the chart lies mirrored there or would fold by rounding.
+    fn at_pin_over_place(&self, options: PackingOptions) -> Option<Embedding> {
+        let there = self.laid_over(self.locked?, options);
+        let (&pin, _) = self.outcome.targets_in_use().next()?;
+        let target = self.in_place()[pin];
+        let by = target - there[pin];
+        let mut moved: Embedding = there.iter().map(|&at| at + by).collect();
+        moved[pin] = target;
+        let verdict = verdict(self.outcome.step.candidate.mesh(self.disk()), &moved);
+        (verdict.planar && !verdict.mirrored).then_some(moved)
     }
 
     /// Coordinates by the similarity of a plane that is nearest to given ones, mirrored if that is nearer. Given numbers

@@ -48,8 +48,7 @@ impl Outcome {
         let pins = problem.settings.held(&problem.pins());
         let hard: Vec<(VertexId, DVec2)> =
             pins.iter().filter(|(_, pin)| pin.kind.is_hard()).map(|(&vertex, pin)| (vertex, pin.target)).collect();
-        let is_met = |(vertex, target): &(VertexId, DVec2)| shaped.get(vertex.index()) == Some(target);
-        if shaped.len() != mesh.vertex_count() || hard.iter().all(is_met) {
+        if shaped.len() != mesh.vertex_count() || problem.shaped_map_meets_pins() {
             return Self::of_saved_map(mesh, problem.clone(), shaped.as_ref().clone());
         }
         let moved_to = match hard.as_slice() {

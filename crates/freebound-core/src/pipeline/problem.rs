@@ -98,6 +98,14 @@ impl Problem {
         UvFrame::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect())
     }
 
+    /// True if the user shaped a map that meets all hard pins as it is.
+    pub fn shaped_map_meets_pins(&self) -> bool {
+        let Some(ShapedMap(shaped)) = &self.shaped else { return false };
+        let pins = self.settings.held(&self.pins());
+        let mut hard = pins.iter().filter(|(_, pin)| pin.kind.is_hard());
+        hard.all(|(vertex, pin)| shaped.get(vertex.index()) == Some(&pin.target))
+    }
+
     /// True if both problems pin the same vertices in the same way and differ at most in targets.
     pub fn differs_in_targets_alone(&self, other: &Self) -> bool {
         let is_alike = self.settings.resolves_to(&other.settings) && self.frame == other.frame;

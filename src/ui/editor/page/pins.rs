@@ -8,6 +8,9 @@ use crate::ui::{Editor, PinMark};
 use freebound_core::mesh::VertexId;
 use freebound_core::pipeline::Target;
 
+/// Reason why pins wait while charts are solved.
+const UNSOLVED: &str = "Charts are being solved: wait, or repair those that failed";
+
 /// Pin of a chart on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PagePin {
@@ -42,12 +45,40 @@ impl Editor {
         pins
     }
 
-    /// True if vertices are selected that can be pinned: on the page, or on the chart on the screen.
-    pub(in crate::ui) fn can_fix_selection(&self) -> bool {
-        if self.shows_page() {
-            return self.session.can_move_charts() && !self.plane.page.elements().is_empty();
+    /// Reason why the selection cannot be pinned, on the page or on the chart on the screen.
+    pub(in crate::ui) fn fix_hindrance(&self) -> Option<&'static str> {
+        let is_solved =
+            if self.shows_page() { self.session.can_move_charts() } else { self.session.outcome().is_some() };
+        if self.selected_elements().is_empty() {
+            Some("Select vertices, edges or faces first")
+        } else {
+            (!is_solved).then_some(UNSOLVED)
         }
-        !self.selection.vertices().is_empty() && self.session.outcome().is_some()
+    }
+
+    /// Reason why no selected pin can be freed.
+    pub(in crate::ui) fn unpin_hindrance(&self) -> Option<&'static str> {
+        let page = self.shows_page();
+        let has_pins =
+            if page { !self.pins_selected_by_chart().is_empty() } else { self.pins_selected().next().is_some() };
+        if has_pins {
+            (page && !self.session.can_move_charts()).then_some(UNSOLVED)
+        } else {
+            Some("No pin is selected")
+        }
+    }
+
+    /// Reason why the pins of what is shown cannot all be freed.
+    pub(in crate::ui) fn unpin_all_hindrance(&self) -> Option<&'static str> {
+        let page = self.shows_page();
+        let is_free = if page { self.pins_by_chart().is_empty() } else { self.session.document().targets.is_empty() };
+        if is_free { Some("Place a pin first") } else { (page && !self.session.can_move_charts()).then_some(UNSOLVED) }
+    }
+
+    /// Frees all pins of the page, or of the chart on the screen.
+    pub(in crate::ui::editor) fn unpin_all(&mut self) {
+        let action = if self.shows_page() { Action::UnpinOnPage(self.pins_by_chart()) } else { Action::UnpinAll };
+        self.act(action);
     }
 
     /// Pins the selected vertices at their current positions.
@@ -68,14 +99,6 @@ impl Editor {
             Action::Unpin(self.pins_selected().collect())
         };
         self.act(action);
-    }
-
-    /// True if pins are selected, on the page or on the chart on the screen.
-    pub(in crate::ui) fn has_selected_pins(&self) -> bool {
-        if self.shows_page() {
-            return self.session.can_move_charts() && !self.pins_selected_by_chart().is_empty();
-        }
-        self.pins_selected().next().is_some()
     }
 
     /// All pins of the page, by charts.

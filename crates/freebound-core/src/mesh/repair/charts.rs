@@ -16,6 +16,10 @@ pub struct Charts {
     faces: Vec<Vec<u32>>,
     /// Chart of each vertex of the whole mesh; `None` for unreferenced vertices.
     chart_of_vertex: Vec<Option<u32>>,
+    /// Number of vertices of each chart.
+    vertex_counts: Vec<usize>,
+    /// Chart with the most faces; the first one at a tie.
+    largest: usize,
 }
 
 /// A chart with its own vertices.
@@ -47,7 +51,13 @@ impl Charts {
                 chart_of_vertex[corner.index()] = Some(number);
             }
         }
-        Ok(Self { whole, faces, chart_of_vertex })
+        let size = |&chart: &usize| (faces[chart].len(), std::cmp::Reverse(chart));
+        let largest = (0..faces.len()).max_by_key(size).unwrap_or_default();
+        let mut vertex_counts = vec![0; faces.len()];
+        for &chart in chart_of_vertex.iter().flatten() {
+            vertex_counts[chart as usize] += 1;
+        }
+        Ok(Self { whole, faces, chart_of_vertex, vertex_counts, largest })
     }
 
     /// Mesh that the charts belong to.
@@ -63,6 +73,11 @@ impl Charts {
     /// Faces of a chart in the whole mesh, ascending.
     pub fn faces(&self, chart: usize) -> &[u32] {
         &self.faces[chart]
+    }
+
+    /// Number of vertices of a chart, without those that fill its holes.
+    pub fn vertex_count(&self, chart: usize) -> usize {
+        self.vertex_counts[chart]
     }
 
     /// First face of a chart, by its number in the given mesh.
@@ -90,7 +105,7 @@ impl Charts {
 
     /// Chart with the most faces; the first one at a tie.
     pub fn largest(&self) -> usize {
-        (0..self.count()).max_by_key(|&chart| (self.faces[chart].len(), std::cmp::Reverse(chart))).unwrap_or_default()
+        self.largest
     }
 
     /// Returns the wanted chart if it exists, otherwise the largest chart.

@@ -101,6 +101,10 @@ fn seams_that_take_a_surface_apart_make_charts_of_it() {
     let crossing = lines.chain((0..3).map(|x| edge(x + 4, x + 5)));
     let charts = Charts::of(only(crossing).repaired(&source)).expect("disks");
     assert_eq!((0..charts.count()).map(|chart| charts.faces(chart).len()).collect::<Vec<_>>(), [1, 1, 1, 2, 2, 2]);
+    for chart in 0..charts.count() {
+        assert_eq!(charts.vertex_count(chart), charts.chart(chart).vertex_of.len());
+    }
+    assert_eq!((charts.largest(), charts.pick(Some(1)), charts.pick(Some(6))), (3, 1, 3), "the first of equal ones");
 }
 
 #[test]
