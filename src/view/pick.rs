@@ -117,6 +117,15 @@ impl SurfacePicker {
         first_hit(&self.tree, Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
     }
 
+    /// True if the middle of a face is seen from the eye.
+    pub fn is_face_visible(&self, face: FaceId, eye: DVec3) -> bool {
+        let Some(corners) = self.triangles.get(face.index()) else { return false };
+        let middle = corners.iter().map(|&corner| self.positions[corner.index()]).sum::<DVec3>() / 3.0;
+        let Some(direction) = (middle - eye).try_normalize() else { return true };
+        let hit = self.hit(Ray { origin: eye, direction });
+        hit.is_none_or(|hit| hit.face == face || hit.distance >= middle.distance(eye) * (1.0 - HIDING_MARGIN))
+    }
+
     /// Position of each vertex in the pane. `None` for vertices behind the near plane.
     pub fn spots(&self, camera: &OrbitCamera, pane_size: DVec2) -> Vec<Option<DVec2>> {
         let clip_from_world = camera.clip_from_world(pane_size);

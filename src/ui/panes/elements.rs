@@ -1,10 +1,9 @@
 //! Vertices, edges and faces in both panes: the element under the pointer, those in a region, and clicks on them.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use eframe::egui::{self, CursorIcon, Painter, Pos2, Response, Stroke};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::pane;
 use super::region::{Region, in_plane};
@@ -155,70 +154,70 @@ pub(super) fn line_of(edges: &Arc<EdgeList>, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(edges), colour: theme.selection_line, width_in_points: WIDTH }
 }
 
-/// Marks the element under the pointer. `spot` is the place of a vertex on the screen, if it is seen.
-pub(super) fn mark_under_pointer(
-    painter: &Painter,
-    element: Option<MeshElement>,
-    mesh: &ElementMesh<'_>,
-    theme: &Theme,
-    spot: impl Fn(VertexId) -> Option<Pos2>,
-) {
-    if let Some(MeshElement::Vertex(vertex)) = element
-        && let Some(at) = spot(vertex)
-    {
-        pane::halo(painter, at, theme.selection, 5.0);
-    }
-    for ends in element.map(|element| mesh.outline(element)).unwrap_or_default() {
-        if let [Some(a), Some(b)] = ends.map(&spot) {
-            painter.line_segment([a, b], Stroke::new(3.5, theme.selection));
-        }
+/// True if a surface does not hide an element from the eye: a vertex, both ends of an edge, or the middle of a face.
+pub(super) fn is_seen(picker: &SurfacePicker, element: MeshElement, eye: DVec3) -> bool {
+    match element {
+        MeshElement::Vertex(vertex) => picker.is_visible(vertex, eye),
+        MeshElement::Edge(ends) => ends.into_iter().all(|end| picker.is_visible(end, eye)),
+        MeshElement::Face(face) => picker.is_face_visible(face, eye),
     }
 }
 
-/// Marks what is selected: dots on vertices, a tint on faces. `spot` is the place of a vertex on the screen, and true if
-/// it is seen. The edges are drawn with the mesh.
-pub(super) fn mark_selection(
-    painter: &Painter,
-    elements: Option<&ElementSet>,
-    mesh: &ElementMesh<'_>,
-    theme: &Theme,
-    spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
-) {
-    let Some(elements) = elements else { return };
-    if elements.kind() == ElementKind::Vertices {
-        for (at, is_seen) in elements.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| spot(vertex)) {
-            // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
-            let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
-            pane::dot(painter, at, colour);
-        }
-    }
-    if elements.faces().len() <= TINTED {
-        tint(painter, elements, mesh, theme, spot);
-    }
+/// Marks over a mesh on the screen.
+pub(super) struct Marks<'a> {
+    pub(super) painter: &'a Painter,
+    pub(super) theme: &'a Theme,
+    pub(super) mesh: &'a ElementMesh<'a>,
 }
 
-/// Tints the selected faces that are seen.
-fn tint(
-    painter: &Painter,
-    elements: &ElementSet,
-    mesh: &ElementMesh<'_>,
-    theme: &Theme,
-    spot: impl Fn(VertexId) -> Option<(Pos2, bool)>,
-) {
-    let mut tint = egui::Mesh::default();
-    // Each vertex is tested once, because a test casts a ray.
-    let mut number_of: HashMap<VertexId, Option<u32>> = HashMap::new();
-    for corners in elements.faces().iter().filter_map(|&face| mesh.triangle(face)) {
-        let numbers = corners.map(|corner| {
-            *number_of.entry(corner).or_insert_with(|| {
-                let (at, _) = spot(corner).filter(|(_, is_seen)| *is_seen)?;
-                tint.colored_vertex(at, theme.selection.gamma_multiply(TINT));
-                u32::try_from(tint.vertices.len() - 1).ok()
-            })
-        });
-        if let [Some(a), Some(b), Some(c)] = numbers {
-            tint.add_triangle(a, b, c);
+impl Marks<'_> {
+    /// Marks the element under the pointer. `spot` is the place of a vertex on the screen, if it is seen.
+    pub(super) fn under_pointer(&self, element: Option<MeshElement>, spot: impl Fn(VertexId) -> Option<Pos2>) {
+        let Self { painter, theme, mesh } = self;
+        if let Some(MeshElement::Vertex(vertex)) = element
+            && let Some(at) = spot(vertex)
+        {
+            pane::halo(painter, at, theme.selection, 5.0);
+        }
+        for ends in element.map(|element| mesh.outline(element)).unwrap_or_default() {
+            if let [Some(a), Some(b)] = ends.map(&spot) {
+                painter.line_segment([a, b], Stroke::new(3.5, theme.selection));
+            }
         }
     }
-    painter.add(tint);
+
+    /// Marks what is selected: dots on vertices, a tint on faces. `spot` is the place of a vertex on the screen, and
+    /// `is_seen` tells what the mesh does not hide. The edges are drawn with the mesh.
+    pub(super) fn selection(
+        &self,
+        elements: Option<&ElementSet>,
+        spot: impl Fn(VertexId) -> Option<Pos2>,
+        is_seen: impl Fn(MeshElement) -> bool,
+    ) {
+        let Some(elements) = elements else { return };
+        let Self { painter, theme, mesh } = self;
+        if elements.kind() == ElementKind::Vertices {
+            for &vertex in elements.vertices().iter().take(MARKS_SHOWN) {
+                let Some(at) = spot(vertex) else { continue };
+                // Show hidden vertices dimmed through the mesh, because "Go to" may select them.
+                let shown = is_seen(MeshElement::Vertex(vertex));
+                pane::dot(painter, at, if shown { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) });
+            }
+        }
+        if elements.faces().len() > TINTED {
+            return;
+        }
+        let mut tint = egui::Mesh::default();
+        for &face in elements.faces() {
+            let corners = mesh.triangle(face).map(|corners| corners.map(&spot));
+            if let Some([Some(a), Some(b), Some(c)]) = corners.filter(|_| is_seen(MeshElement::Face(face))) {
+                let first = u32::try_from(tint.vertices.len()).unwrap_or_default();
+                for at in [a, b, c] {
+                    tint.colored_vertex(at, theme.selection.gamma_multiply(TINT));
+                }
+                tint.add_triangle(first, first + 1, first + 2);
+            }
+        }
+        painter.add(tint);
+    }
 }

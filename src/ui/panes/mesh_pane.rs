@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Response};
 use glam::{DVec2, DVec3};
 
-use super::elements::{self, Surface};
+use super::elements::{self, Marks, Surface};
 use super::pane;
 use super::pins::{self, Emphasis, PinMark};
 use super::region::draw_region;
@@ -284,15 +284,28 @@ fn seam_under_pointer(
     }
 }
 
+/// Pins of the chart on the screen. `seen` is the place of a vertex that the mesh does not hide.
+fn pin_marks(painter: &egui::Painter, editor: &Editor, theme: &Theme, seen: impl Fn(VertexId) -> Option<Pos2>) {
+    let unmet = editor.unmet_shown();
+    for pin in editor.pins_shown() {
+        let Some(at) = seen(pin.vertex) else { continue };
+        if unmet.contains(&pin.vertex) {
+            pins::unmet_mark(painter, at, theme);
+        } else if editor.session.conflict_of(pin.vertex).is_some() {
+            pins::conflict_mark(painter, at, theme);
+        }
+        pin.kind.mark(painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
+    }
+}
+
 /// Marks over the mesh: pins, selection, hover and defects.
 fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
     let theme = theme_of(ui);
     let painter = ui.painter_at(view.rect);
     let eye = view.camera.eye();
     let positions = &scene.mesh().positions;
-    let place = |vertex: VertexId| -> Option<(Pos2, bool)> {
-        Some((view.spot(*positions.get(vertex.index())?)?, scene.picker.is_visible(vertex, eye)))
-    };
+    let spot = |vertex: VertexId| view.spot(*positions.get(vertex.index())?);
+    let place = |vertex: VertexId| Some((spot(vertex)?, scene.picker.is_visible(vertex, eye)));
     let seen = |vertex: VertexId| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
     for edge in pane::crossings(editor, scene).into_iter().flatten() {
         if let [Some((a, a_seen)), Some((b, b_seen))] = edge.map(place)
@@ -320,20 +333,12 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     for at in new_vertices(scene).filter_map(seen) {
         new_vertex_mark(&painter, at, theme);
     }
-    let unmet = editor.unmet_shown();
-    for pin in editor.pins_shown() {
-        if let Some(at) = seen(pin.vertex) {
-            if unmet.contains(&pin.vertex) {
-                pins::unmet_mark(&painter, at, theme);
-            } else if editor.session.conflict_of(pin.vertex).is_some() {
-                pins::conflict_mark(&painter, at, theme);
-            }
-            pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
-        }
-    }
     let mesh = scene.elements();
-    elements::mark_selection(&painter, editor.selection.elements_on(scene), &mesh, theme, place);
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
+    let is_seen = |element| elements::is_seen(&scene.picker, element, eye);
+    let marks = Marks { painter: &painter, theme, mesh: &mesh };
+    marks.selection(editor.selection.elements_on(scene), spot, is_seen);
+    pin_marks(&painter, editor, theme, seen);
+    marks.under_pointer(editor.pointer.element(), seen);
     let vertex = editor.pointer.vertex().filter(|_| editor.pointer.element().is_none());
     if let Some((vertex, at)) = vertex.and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, Color32, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Stroke, Vec2};
 use glam::DVec2;
 
-use super::elements::{self, Plane, Surface};
+use super::elements::{self, Marks, Plane, Surface};
 use super::pins::Emphasis;
 use super::region::{Region, draw_region};
 use super::{brush, legend, mesh_pane, pins, plane_pane};
@@ -125,9 +125,10 @@ fn element_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, sc
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| Some(view.spot(scene.place_of(vertex)?));
     let (mesh, selected) = (scene.elements(), editor.plane.page.elements());
-    elements::mark_selection(&painter, Some(selected), &mesh, theme, |vertex| Some((spot(vertex)?, true)));
+    let marks = Marks { painter: &painter, theme, mesh: &mesh };
+    marks.selection(Some(selected), spot, |_| true);
     pin_marks(&painter, editor, theme, spot, |_| true);
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, spot);
+    marks.under_pointer(editor.pointer.element(), spot);
 }
 
 /// Press of the left button on a chart, which moves the selected charts and not the camera.
@@ -273,16 +274,14 @@ fn within_mesh(view: Viewport<OrbitCamera>, region: &Region, editor: &Editor, sc
 fn element_marks_on_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &PageScene) {
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let (picker, eye) = (scene.surface_picker(), view.camera.eye());
-    let place = |vertex: VertexId| {
-        let at = view.spot(*picker.positions().get(vertex.index())?)?;
-        Some((at, picker.is_visible(vertex, eye)))
-    };
-    let mesh = scene.elements();
-    let seen = |vertex| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
-    elements::mark_selection(&painter, Some(editor.plane.page.elements()), &mesh, theme, place);
     let spot = |vertex: VertexId| view.spot(*picker.positions().get(vertex.index())?);
+    let mesh = scene.elements();
+    let seen = |vertex| spot(vertex).filter(|_| picker.is_visible(vertex, eye));
+    let is_seen = |element| elements::is_seen(picker, element, eye);
+    let marks = Marks { painter: &painter, theme, mesh: &mesh };
+    marks.selection(Some(editor.plane.page.elements()), spot, is_seen);
     pin_marks(&painter, editor, theme, spot, |vertex| picker.is_visible(vertex, eye));
-    elements::mark_under_pointer(&painter, editor.pointer.element(), &mesh, theme, seen);
+    marks.under_pointer(editor.pointer.element(), seen);
 }
 
 /// Lines of the outlines: all, those under the pointer, and those that are selected.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Pos2, Rect, Response};
 use glam::DVec2;
 
-use super::elements::{self, Plane};
+use super::elements::{self, Marks, Plane};
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane;
@@ -225,8 +225,9 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
     let seen = |vertex: VertexId| Some(view.spot(plane.position_of(vertex)?));
     let mesh = plane.mesh.elements();
     let selected = editor.selection.elements_on(&plane.mesh);
-    elements::mark_selection(&over, selected, &mesh, theme, |vertex| Some((seen(vertex)?, true)));
-    elements::mark_under_pointer(&over, editor.pointer.element(), &mesh, theme, seen);
+    let marks = Marks { painter: &over, theme, mesh: &mesh };
+    marks.selection(selected, seen, |_| true);
+    marks.under_pointer(editor.pointer.element(), seen);
     if editor.is_of_session(&plane.mesh) {
         for side in editor.tools.seam_hover.sides() {
             over.line_segment(side.map(spot), pane::seam_stroke(theme));

@@ -362,3 +362,22 @@ fn grid_lines_keep_a_readable_distance_through_all_zooms() {
         camera.zoom_at(PANE / 2.0, 1.1, PANE);
     }
 }
+
+#[test]
+fn a_face_is_seen_unless_another_hides_its_middle() {
+    // A small sheet hides the middle of a large one below it.
+    let (mut positions, mut triangles) = terrain(9, |_, _| 0.0);
+    let (large, faces) = (positions.len(), triangles.len());
+    let (small, others) = terrain(3, |_, _| 0.3);
+    positions.extend(small.iter().map(|&at| at * DVec3::new(0.5, 0.5, 1.0) + DVec3::new(0.25, 0.25, 0.0)));
+    let moved = |vertex: VertexId| VertexId::from_index(large + vertex.index());
+    triangles.extend(others.iter().map(|corners| corners.map(moved)));
+    let picker = SurfacePicker::new(&positions, &triangles);
+    let eye = DVec3::new(0.5, 0.5, 100.0);
+    for (face, corners) in triangles.iter().enumerate() {
+        let middle = corners.iter().map(|corner| positions[corner.index()]).sum::<DVec3>() / 3.0;
+        let is_below = face < faces && (middle - 0.5).truncate().abs().max_element() < 0.25;
+        assert_eq!(picker.is_face_visible(FaceId::from_index(face), eye), !is_below, "{face}");
+    }
+    assert!(!picker.is_face_visible(FaceId::from_index(triangles.len()), eye), "no such face");
+}
